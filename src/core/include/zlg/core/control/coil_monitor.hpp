@@ -33,6 +33,9 @@ struct CoilMonitorOutput {
 
 // Advance by one half-period that was received.
 //
+// The two signs may never differ by more than one per cent of the current, or of its first readings by two deviations
+// more; a current that differs so is not learnt.
+//
 // Two halves in a row may differ by the tolerance, or by eight standard deviations of such a difference where that is
 // more; half their difference, smoothed over eight halves, by half the tolerance, or two deviations. A change that is
 // the same in both signs for a second is accepted as the new level, because it cancels in the angle; one after which
