@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include <zlg/design/substitution_noise.hpp>
 #include <zlg/design/perimeter_response.hpp>
 #include <zlg/design/relock_loop.hpp>
 #include <zlg/design/relock_tables.hpp>
+#include <zlg/design/substitution_noise.hpp>
 #include <zlg/design/switching_interval.hpp>
 
 #include "paper_claims_parts.hpp"

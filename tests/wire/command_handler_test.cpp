@@ -102,7 +102,7 @@ TEST(CommandHandler, StoresNothingWhereOneIsRefusedByTheCoreAndNamesIt) {
 
 TEST(CommandHandler, NamesThePartThatRefuses) {
     Bench bench;
-    const CommandOutput out = bench.set({{chi_key, -1.0}});
+    const CommandOutput out = bench.set({{chi_key, -2e6}});
     EXPECT_EQ(out.reply.part, RefusingPart::compensation);
     EXPECT_EQ(out.reply.fault, static_cast<std::uint8_t>(core::GyroCompensationFault::relock));
     EXPECT_EQ(out.reply.key, chi_key);
@@ -118,7 +118,7 @@ TEST(CommandHandler, TwoThatAreAllowedOnlyTogetherAreSetTogether) {
 
 TEST(CommandHandler, WhereNoneAloneIsAtFaultNoneIsNamed) {
     Bench bench;
-    const CommandOutput out = bench.set({{gap_key, 0.0}, {chi_key, -1.0}});
+    const CommandOutput out = bench.set({{gap_key, 0.0}, {chi_key, -2e6}});
     EXPECT_EQ(out.reply.result, CommandResult::not_allowed);
     EXPECT_EQ(out.reply.key, 0u);
     EXPECT_EQ(bench.value(chi_key), 3.6);
