@@ -94,7 +94,7 @@ void write_manual(const CLI::App& program, const std::filesystem::path& folder) 
 
 void add_manual(CLI::App& program) {
     const auto write_all = [&program](const std::string& folder) { write_manual(program, folder); };
-    program.add_option_function<std::string>("--manual", write_all, "folder for man pages and completions")
+    program.add_option_function<std::string>("--manual", write_all, "folder for man pages and completion")
         ->trigger_on_parse()
         ->group("");
 }

@@ -228,7 +228,7 @@ bool is_given(const Config& config, std::string_view dotted_key) {
 std::string not_given(const Config& config, std::span<const std::string_view> dotted_keys) {
     std::string list;
     for (const auto& [key, value] : to_settings(config))
-        if (std::ranges::find(dotted_keys, key) != dotted_keys.end() && !is_given(config, key))
+        if (std::find(dotted_keys.begin(), dotted_keys.end(), key) != dotted_keys.end() && !is_given(config, key))
             list += fmt::format("{}{} = {}", list.empty() ? "" : ", ", key, value);
     return list;
 }

@@ -48,6 +48,17 @@ std::int64_t counts_limit(const config::Config& config) {
 // (light_balance.hpp).
 constexpr double balance_s = 240.0;
 
+// Most of the derivative of the loss by the square of the detuning, up to the largest that a switch leaves.
+double steepest_loss(const config::Gyro& g) {
+    constexpr double largest_lambda2 = 0.24 * 0.24;
+    double sum = std::abs(g.bias_chi), power = 1.0;
+    for (std::size_t k = 0; k < g.bias_chi_higher.size(); ++k) {
+        power *= largest_lambda2;
+        sum += static_cast<double>(k + 2) * power * std::abs(g.bias_chi_higher[k]);
+    }
+    return sum;
+}
+
 // Arm the monitors with the change of bias and of perimeter that makes one false count in a tick.
 void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     const config::Gyro& g = config.gyro;
@@ -62,7 +73,7 @@ void add_monitors(const config::Config& config, core::GyroControlConfig& made) {
     if (!reads_true) made.limits.light_gain = 10.0;
     if (reads_true && g.bias_chi > 0.0 && g.bias_chi_higher.empty() && bias_counts >= 100.0)
         made.limits.bias_chi = g.bias_chi;
-    const double false_counts = bias_counts * std::abs(g.bias_chi);
+    const double false_counts = bias_counts * steepest_loss(g);
     if (false_counts > 0.0) {
         const double noise_lambda2 = g.light_noise_lambda * g.light_noise_lambda;
         made.limits.detuning_change_lambda2 = std::min(1.0 / false_counts + 20.0 * noise_lambda2, 1e6);

@@ -138,6 +138,7 @@ LaserCalibration calibrate(const config::Config& config) {
     const twin::GyroConfig equivalent = twin::with_laser(config.gyro, config.laser.quadrature, averaged);
     made.config.gyro.bias_hz = equivalent.bias_hz;
     made.config.gyro.bias_chi = equivalent.bias_chi;
+    made.config.gyro.bias_chi_higher.clear();
     made.config.gyro.discriminator_per_lambda = equivalent.discriminator_per_lambda;
 
     const Settled settled{laser, field_g, averaged};

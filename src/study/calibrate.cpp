@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <zlg/calibration/lab_reader.hpp>
 #include <zlg/config/log_settings.hpp>
@@ -210,6 +211,16 @@ void refuse_beyond_ranges(calibration::Calibration& found) {
         } catch (const config::ConfigError& error) {
             c.estimate = numeric::refused(error.what());
         }
+    }
+    const auto chi = std::ranges::find(found.constants, "gyro.bias_chi", &calibration::Constant::key);
+    if (chi == found.constants.end() || !chi->estimate.determined) return found.chi_higher.clear();
+    try {
+        config::Config any;
+        config::apply_pair(any, "gyro.bias_chi_higher", fmt::format("[{}]", fmt::join(found.chi_higher, ", ")),
+                           "it comes out as");
+    } catch (const config::ConfigError& error) {
+        chi->estimate = numeric::refused(error.what());
+        found.chi_higher.clear();
     }
 }
 

@@ -124,8 +124,7 @@ double power_quantile(double edf, double p, double z) {
 
 // Of V in units of its expectation. Two laws of the right mean, variance and skewness: the shifted chi-square
 // 1 + (chi2(p) - p)/sqrt(p edf) ends too early below, chi-square times what skewness changes in the power law too late.
-// The weighted geometric mean is nearly right where degrees of freedom are not few: of 3000 records 68 % held 64.9 % at
-// worst.
+// The weighted geometric mean is nearly right where degrees of freedom are not few.
 double quantile_by_moments(const VarianceLaw& law, double probability) {
     constexpr double min_p = 6.0;  // below, moments do not say enough
     const double p = law.skewness_p;

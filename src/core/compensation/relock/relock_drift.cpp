@@ -48,7 +48,8 @@ FalseAngle by_mean_square(const CompensationConstants& g, const RelockTick& t) n
     // Mean of n squares (dl + e)^2: variance (4 dl^2 s^2 + 2 s^4)/n; the measured mean holds dl^2 + s^2.
     const double s2 = square(g.light_noise.value()) * 0.5 * (noise_gain(g, first_seen) + noise_gain(g, second_seen));
     const double above = first + second - 2.0 * s2;
-    const double steepness = square(slope_over_square(g.bend, above > 0.0 ? above : 0.0));
+    const auto steep = [&g](double sq_lambda2) { return sq_lambda2 * square(slope_over_square(g.bend, sq_lambda2)); };
+    const double steepness = (steep(first) + steep(second)) / (first + second);
     const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 * steepness + 4.0 * s2 * s2) / g.light_samples;
     const double unit = sign_of(t) * arcsec_per_lambda2(g, bias_of(g, t));
     const double bent = beyond_square(g, second_seen) - beyond_square(g, first_seen);
@@ -172,7 +173,9 @@ double pushed_arcsec2(const CompensationConstants& gyro, const RelockDriftConfig
     if (state.armed && state.since_gap < config.ticks) return 0.0;
     if (config.method == RelockMethod::none || config.method == RelockMethod::frequency) return 0.0;
     const double unit = arcsec_per_lambda2(gyro, gyro.bias);
-    const double change_lambda2 = tick.second.detuning_sq_lambda2 - tick.first.detuning_sq_lambda2;
+    const double first_lambda2 = tick.first.detuning_sq_lambda2, second_lambda2 = tick.second.detuning_sq_lambda2;
+    const double change_lambda2 = second_lambda2 - first_lambda2 + beyond_square(gyro.bend, second_lambda2) -
+                                  beyond_square(gyro.bend, first_lambda2);
     if (square(unit * change_lambda2) <= hidden_part * variance_arcsec2) return 0.0;
     RelockDriftState closing{.armed = true};
     const FalseAngle left = step(gyro, config, closing, tick).tick;
