@@ -134,6 +134,10 @@ void agree(LaserAgreement& made) {
         off.push_back(fmt::format("{} = {:.6g} is presumed, [laser] makes {:.6g}", c.key, c.presumed, c.by_laser));
         is_contradicted = is_contradicted || config::is_given(made.config, c.key);
     }
+    if (!made.config.gyro.bias_chi_higher.empty()) {
+        off.emplace_back("gyro.bias_chi_higher is presumed, [laser] makes none");
+        is_contradicted = true;
+    }
     // A third wave bends the curve where readings are good for their sign only.
     const double error_lambda = reading_error_lambda(made.config, by_laser.perimeter, calibration.third_wave_lambda);
     if (error_lambda > reading_tolerance_lambda) {

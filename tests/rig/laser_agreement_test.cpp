@@ -67,6 +67,11 @@ TEST(LaserAgreement, a_slope_that_is_given_alone_stays_the_whole_law) {
     zlg::test::expect_contains(all(made.warnings), "perimeter.discriminator_signal is unset");
 }
 
+TEST(LaserAgreement, higher_powers_of_the_loss_are_none_of_a_laser) {
+    const rig::LaserAgreement made = rig::agreed_with_laser(laser({"gyro.bias_chi_higher=400"}));
+    zlg::test::expect_contains(all(made.warnings), "gyro.bias_chi_higher is presumed, [laser] makes none");
+}
+
 // A value that is given is given, though it be the default.
 TEST(LaserAgreement, a_default_that_is_given_contradicts_like_any_other) {
     const rig::LaserAgreement made = rig::agreed_with_laser(laser({"laser.perimeter_m=0.12", "gyro.bias_chi=3.6"}));
