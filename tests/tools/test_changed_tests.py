@@ -122,9 +122,8 @@ class Quick(TreeTest):
         self.write("scripts/test", (SCRIPTS / "test").read_text(encoding="utf-8")).chmod(0o755)
         self.write("scripts/install", "#!/bin/sh\n").chmod(0o755)
         self.write("scripts/compiler_cache", "")
-        self.write("tools/check_mirror", "#!/bin/sh\n").chmod(0o755)
-        for name in ("cmake", "clang-format-14"):
-            self.write(f"build/stubs/{name}", "#!/bin/sh\n").chmod(0o755)
+        for name in ("tools/check_mirror", "tools/check_budget", "build/stubs/cmake", "build/stubs/clang-format-14"):
+            self.write(name, "#!/bin/sh\n").chmod(0o755)
         source = self.write("src/core/control/monitor.cpp", "int sum(int a, int b) { return a + b; }\n")
         self.write("tests/core/control/monitor_test.cpp", "")
         self.write("tests/wire/frame_test.cpp", "")
