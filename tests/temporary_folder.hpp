@@ -20,7 +20,7 @@ public:
 
     [[nodiscard]] std::string file(std::string_view name) const { return path_ / name; }
 
-    [[nodiscard]] std::string write(std::string_view name, std::string_view text) const {
+    std::string write(std::string_view name, std::string_view text) const {
         std::ofstream{file(name), std::ios::binary} << text;
         return file(name);
     }

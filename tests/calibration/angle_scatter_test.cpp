@@ -1,9 +1,6 @@
 #include <zlg/calibration/angle_scatter.hpp>
 
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 using namespace zlg::calibration;
 

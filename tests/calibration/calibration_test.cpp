@@ -1,12 +1,6 @@
 #include <zlg/calibration/calibration.hpp>
 #include <zlg/calibration/lab_reader.hpp>
 
-#include <cmath>
-#include <map>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include <zlg/config/schema.hpp>
 
 #include "synthetic_gyro.hpp"

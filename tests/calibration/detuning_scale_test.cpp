@@ -1,10 +1,5 @@
 #include <zlg/calibration/detuning_scale.hpp>
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "synthetic_gyro.hpp"
 
 using namespace zlg::calibration;

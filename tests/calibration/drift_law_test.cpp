@@ -1,9 +1,5 @@
 #include <zlg/calibration/drift_law.hpp>
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "synthetic_gyro.hpp"
 
 using namespace zlg::calibration;

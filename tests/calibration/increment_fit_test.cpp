@@ -1,11 +1,8 @@
 #include <zlg/calibration/increment_fit.hpp>
 
-#include <cmath>
-#include <random>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
 #include <Eigen/Dense>
+
+#include "test.hpp"
 
 using namespace zlg::calibration;
 

@@ -1,8 +1,6 @@
 #include <zlg/calibration/lab_log.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "test.hpp"
 
 using namespace zlg::calibration;
 

@@ -1,9 +1,6 @@
 #include <zlg/calibration/lab_reader.hpp>
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 using namespace zlg::calibration;
 using zlg::core::HalfRecord;

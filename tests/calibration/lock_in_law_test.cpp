@@ -1,10 +1,5 @@
 #include <zlg/calibration/lock_in_law.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "synthetic_gyro.hpp"
 
 namespace zlg::calibration {

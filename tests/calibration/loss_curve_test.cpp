@@ -1,11 +1,5 @@
 #include <zlg/calibration/loss_curve.hpp>
 
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include <zlg/calibration/bias_loss.hpp>
 
 #include "synthetic_gyro.hpp"

@@ -1,12 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
 
 #include <zlg/calibration/rate_table.hpp>
 #include <zlg/deviations/series.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,13 +1,10 @@
 #pragma once
 // Records of a gyro that is nothing but the laws to be found, made without the twin.
 
-#include <cmath>
-#include <cstdint>
-#include <random>
-#include <vector>
-
 #include <zlg/calibration/lab_reader.hpp>
 #include <zlg/numeric/estimate.hpp>
+
+#include "test.hpp"
 
 namespace synthetic {
 

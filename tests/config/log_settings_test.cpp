@@ -12,12 +12,7 @@ TEST(LogSettings, ALogMayNameItsTickAndScaleWithoutASection) {
 
 TEST(LogSettings, OnlyOurKeysAreComparedAndByTheirValues) {
     const auto passes = [](const Settings& settings) {
-        try {
-            (void)checked_log_settings(settings, "log");
-            return true;
-        } catch (const ConfigError&) {
-            return false;
-        }
+        return test::refusal_by<ConfigError>([&] { (void)checked_log_settings(settings, "log"); }).empty();
     };
     EXPECT_TRUE(passes({{"note", "a"}, {"note", "b"}, {"operator.name", "a"}, {"operator.name", "b"}}));
     EXPECT_TRUE(passes({{"tick_s", "0.005"}, {"gyro.tick_s", "0.0050"}, {"gyro.tick_s", "5e-3"}}));
@@ -67,12 +62,7 @@ TEST_P(FormerKeys, AreRefusedElsewhereWithWhatIsInTheirPlace) {
     const std::string key = GetParam().key;
     const auto complaint = [](auto apply) {
         Config config;
-        try {
-            apply(config);
-        } catch (const ConfigError& error) {
-            return std::string{error.what()};
-        }
-        return std::string{};
+        return test::refusal_by<ConfigError>([&] { apply(config); });
     };
     const std::string by_set = complaint([&](Config& c) { apply_set(c, key + "=" + GetParam().value); });
     EXPECT_EQ(by_set.find(std::string{"--set: "} + GetParam().shown + " is gone since format_version 3 of logs; "), 0u)

@@ -36,12 +36,8 @@ bool is_allowed(const KeyInfo& key, double value) {
         text << static_cast<std::int64_t>(value);
     else
         text << value;
-    try {
-        (void)with({key.section + "." + key.name + "=" + text.str()});
-        return true;
-    } catch (const ConfigError&) {
-        return false;
-    }
+    return test::refusal_by<ConfigError>([&] { (void)with({key.section + "." + key.name + "=" + text.str()}); })
+        .empty();
 }
 
 // Every key whose text names a range: its ends belong to it or not as the text says, and nothing beyond them does.

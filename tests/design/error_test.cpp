@@ -6,11 +6,8 @@ namespace zlg::design {
 namespace {
 
 TEST(DesignError, IsCaughtAsAnInvalidArgumentWithItsMessage) {
-    try {
-        throw DesignError("run_s is 0, allowed is a finite number above 0");
-    } catch (const std::invalid_argument& error) {
-        EXPECT_EQ(std::string{error.what()}, "run_s is 0, allowed is a finite number above 0");
-    }
+    const char* text = "run_s is 0, allowed is a finite number above 0";
+    EXPECT_EQ(test::message_of<std::invalid_argument>([&] { throw DesignError(text); }), text);
 }
 
 }  // namespace

@@ -52,15 +52,10 @@ TEST(MagneticAngle, AGyroThatCannotBeIsRefused) {
 TEST(MagneticAngle, ARefusalIsOneLineThatNamesTheParameterAndItsValue) {
     GyroDrift gyro = warm;
     gyro.thermal_time_s = -7.5;
-    try {
-        check(gyro);
-        FAIL();
-    } catch (const DesignError& error) {
-        const std::string text = error.what();
-        test::expect_contains(text, "thermal_time_s");
-        test::expect_contains(text, "-7.5");
-        EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-    }
+    const std::string text = test::message_of<DesignError>([&] { check(gyro); });
+    test::expect_contains(text, "thermal_time_s");
+    test::expect_contains(text, "-7.5");
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
 }
 
 TEST(MagneticAngle, TheRateRisesFromItsStartByTheThermalChange) {

@@ -1,11 +1,10 @@
 #include <zlg/deviations/angle_samples.hpp>
 
-#include <stdlib.h>
 #include <zlg/deviations/averaging.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 
-#include "test.hpp"
+#include "temporary_folder.hpp"
 
 using namespace zlg;
 using namespace zlg::deviations;
@@ -14,15 +13,9 @@ namespace {
 
 class AngleSamplesTest : public testing::Test {
 protected:
-    AngleSamplesTest() {
-        std::string name = (std::filesystem::temp_directory_path() / "zlg-samples-XXXXXX").string();
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~AngleSamplesTest() override { std::filesystem::remove_all(folder_); }
-
     // Increments of white noise; every hundredth tick was bridged and is far off.
     std::string log(const std::string& name, int n) {
-        const std::string path = (folder_ / name).string();
+        const std::string path = folder_.file(name);
         logs::AngleWriter writer(path, 0.005, {}, false);
         std::mt19937_64 engine(31);
         std::normal_distribution<double> normal(0.1, 2.0);
@@ -38,7 +31,7 @@ protected:
         return path;
     }
 
-    std::filesystem::path folder_;
+    test::TemporaryFolder folder_;
     std::vector<double> values_;
 };
 

@@ -206,13 +206,9 @@ TEST(Deviation, leaves_out_samples_that_are_flagged_as_it_leaves_out_nan) {
 
 TEST(Deviation, says_in_one_line_why_it_has_no_answer) {
     const auto message = [](auto&& work) -> std::string {
-        try {
-            work();
-        } catch (const SeriesError& error) {
-            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-            return error.what();
-        }
-        return "no error";
+        const std::string text = test::message_of<SeriesError>(work);
+        EXPECT_EQ(text.find('\n'), std::string::npos);
+        return text;
     };
     const std::vector<double> one{1.0}, two{1.0, 2.0}, constant(50, 3.0), none(50, not_a_number),
         good{1.0, 2.0, 0.5, 3.0, 2.0};

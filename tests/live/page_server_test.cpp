@@ -72,12 +72,10 @@ TEST(PageServers, GiveThePageAndTheStream) {
 TEST(PageServers, SayWhichPortIsInUse) {
     const RecordBook book{"", false};
     const PageServer server{"", book, 0};
-    try {
-        const PageServer second{"", book, server.port()};
-        FAIL() << "two servers at one port";
-    } catch (const logs::IoError& error) {
-        test::expect_contains(std::string{error.what()}, std::to_string(server.port()));
-    }
+    test::expect_contains(test::message_of<logs::IoError>([&] {
+                              const PageServer second{"", book, server.port()};
+                          }),
+                          std::to_string(server.port()));
 }
 
 TEST(PageServers, EndAtOnceWithConnectionsOfEveryKindOpen) {

@@ -1,28 +1,19 @@
 // Claims about files of columns: what is written reads back, and a file is as before or whole.
 
-#include <unistd.h>
-
 #include <zlg/logs/column_file.hpp>
 #include <zlg/logs/error.hpp>
 
-#include "test.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 
 using namespace zlg::logs;
-namespace fs = std::filesystem;
 
 class ColumnFiles : public testing::Test {
 protected:
-    ColumnFiles() {
-        std::string name = (fs::temp_directory_path() / "zlg-columns-XXXXXX").string();
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~ColumnFiles() override { fs::remove_all(folder_); }
+    [[nodiscard]] std::string path() const { return folder_.file("c.h5"); }
 
-    [[nodiscard]] std::string path() const { return folder_ / "c.h5"; }
-
-    fs::path folder_;
+    zlg::test::TemporaryFolder folder_;
 };
 
 ColumnFile three() {
@@ -73,11 +64,11 @@ TEST_F(ColumnFiles, refuse_a_column_of_another_type_or_none) {
 
 TEST_F(ColumnFiles, stay_as_they_were_where_writing_fails) {
     write_columns(path(), three());
-    fs::create_directory(path() + ".new");
+    std::filesystem::create_directory(path() + ".new");
     EXPECT_THROW(write_columns(path(), ColumnFile{.group = "/other"}), IoError);
     EXPECT_EQ((ColumnReader{path(), "/things"}.mark("format_version")), 7);
 }
 
-TEST_F(ColumnFiles, need_a_folder) { EXPECT_THROW(write_columns(folder_ / "none" / "c.h5", three()), IoError); }
+TEST_F(ColumnFiles, need_a_folder) { EXPECT_THROW(write_columns(folder_.file("none/c.h5"), three()), IoError); }
 
 }  // namespace

@@ -68,12 +68,8 @@ TEST_F(FileNature, rows_of_doubles_are_told_with_their_width) {
 
 TEST_F(FileNature, what_is_no_text_is_refused_as_what_it_is) {
     const std::string path = written("\x93NUMPY\x01\0v\0"sv);
-    try {
-        refuse_foreign(path);
-        FAIL();
-    } catch (const FormatError& error) {
-        EXPECT_EQ(error.what(), path + ": is a NumPy array (.npy); allowed is a text file; zlg import reads this one");
-    }
+    EXPECT_EQ(zlg::test::message_of<FormatError>([&] { refuse_foreign(path); }),
+              path + ": is a NumPy array (.npy); allowed is a text file; zlg import reads this one");
     EXPECT_THROW(refuse_foreign("/no/such/file"), IoError);
 }
 

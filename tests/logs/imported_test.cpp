@@ -52,13 +52,8 @@ TEST(ImportedAxes, a_hole_in_angles_keeps_the_turn) {
 
 TEST(ImportedAxes, what_is_missing_is_said_together) {
     const ForeignLook look = look_of("time;w\n0,1;1,5\n0,2;2,5\n0,3;2,25\n0,4;1,25\n", {});
-    try {
-        (void)imported_axes(look);
-        FAIL();
-    } catch (const MappingError& error) {
-        for (const char* key : {"unit=", "holds=", "time_unit=s (then 10 Hz)"})
-            EXPECT_NE(std::string{error.what()}.find(key), std::string::npos) << error.what();
-    }
+    const std::string said = test::message_of<MappingError>([&] { (void)imported_axes(look); });
+    for (const char* key : {"unit=", "holds=", "time_unit=s (then 10 Hz)"}) test::expect_contains(said, key);
 }
 
 }  // namespace

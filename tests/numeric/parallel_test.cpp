@@ -31,15 +31,12 @@ TEST(InParallel, throws_the_failure_of_the_lowest_index_on_any_number_of_threads
     for (const int threads : {1, 2, 8}) {
         for (int repeat = 0; repeat < 50; ++repeat) {
             std::vector<std::atomic<bool>> done(40);
-            std::string failure;
-            try {
+            const std::string failure = test::refusal_by<std::runtime_error>([&] {
                 in_parallel(40, threads, [&](std::size_t k) {
                     if (k == 11 || k == 12 || k == 30) throw std::runtime_error{std::to_string(k)};
                     done[k] = true;
                 });
-            } catch (const std::runtime_error& e) {
-                failure = e.what();
-            }
+            });
             EXPECT_EQ(failure, "11") << threads << " threads";
             for (std::size_t k = 0; k < 11; ++k) EXPECT_TRUE(done[k]) << k;
         }

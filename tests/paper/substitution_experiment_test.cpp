@@ -231,13 +231,8 @@ TEST(SubstitutionExperiment, refuses_a_gyro_that_does_not_switch) {
     e.base.perimeter = {};
     e.base.perimeter.tau_s = 1000.0;
     e.base.piezo.half_wave_error = 0.06;
-    try {
-        (void)result_of(e);
-        FAIL();
-    } catch (const config::ConfigError& error) {
-        EXPECT_NE(std::string{error.what()}.find("switched 1 times, allowed is 100"), std::string::npos)
-            << error.what();
-    }
+    test::expect_contains(test::message_of<config::ConfigError>([&] { (void)result_of(e); }),
+                          "switched 1 times, allowed is 100");
 }
 
 TEST(RandomPhaseMotion, draws_a_phase_for_each_switch) {

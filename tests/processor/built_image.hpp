@@ -1,10 +1,7 @@
 #pragma once
 // The image that this build has made, where the emulator is installed.
 
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
-#include <string>
+#include "test.hpp"
 
 namespace zlg::test {
 

@@ -1,17 +1,9 @@
 // The image's serial line while the twin drives the image: a gyro that switches tells of it, and obeys.
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
-#include <span>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <gtest/gtest.h>
 #include <zlg/config/config.hpp>
 #include <zlg/processor/qemu.hpp>
 #include <zlg/rig/closed_loop.hpp>
@@ -21,6 +13,7 @@
 #include <zlg/wire/telemetry.hpp>
 
 #include "built_image.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 
@@ -52,7 +45,6 @@ public:
     ~Line() {
         close(tells_);
         close(hears_);
-        fs::remove_all(folder_);
     }
     Line(const Line&) = delete;
     Line& operator=(const Line&) = delete;
@@ -73,14 +65,8 @@ public:
     [[nodiscard]] std::uint32_t n_damaged() const { return receiver_.n_damaged; }
 
 private:
-    static std::string made_folder() {
-        std::string name = fs::temp_directory_path() / "zlg-line-XXXXXX";
-        EXPECT_NE(mkdtemp(name.data()), nullptr);
-        return name;
-    }
-
-    std::string folder_ = made_folder();
-    std::string path_ = folder_ + "/line";
+    test::TemporaryFolder folder_;
+    std::string path_ = folder_.file("line");
     int tells_ = -1;
     int hears_ = -1;
     wire::Receiver receiver_{};

@@ -1,19 +1,11 @@
 #include <zlg/processor/qemu.hpp>
 
-#include <csignal>
-#include <cstdlib>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
-#include <optional>
-#include <string>
-#include <thread>
 
 #include <pthread.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <gtest/gtest.h>
 #include <zlg/config/config.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -37,12 +29,7 @@ std::string script(const std::string& name, const std::string& text) {
 }
 
 std::string complaint(const processor::QemuOptions& options) {
-    try {
-        QemuProcessor{options};
-    } catch (const QemuError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_by<QemuError>([&] { QemuProcessor{options}; });
 }
 
 int children() {
@@ -108,16 +95,13 @@ std::string complaint_of_case(const std::string& image, int number) {
         script("provokes", "exec qemu-system-arm \"$@\" -device loader,addr=0x60800000,data=" + std::to_string(number) +
                                ",data-len=4");
     const config::Config c;
-    try {
+    const std::string said = test::refusal_by<QemuError>([&] {
         QemuProcessor processor{{.image = image, .program = program}};
         rig::ClosedLoop loop{c, rig::motion(c), &processor};
         for (int k = 0; k < 400; ++k) (void)loop.advance();
-    } catch (const QemuError& error) {
-        fs::remove(program);
-        return error.what();
-    }
+    });
     fs::remove(program);
-    return "";
+    return said;
 }
 
 TEST(QemuProcessor, says_why_an_image_has_begun_anew) {

@@ -10,12 +10,7 @@ namespace {
 using namespace zlg;
 
 std::string complaint(const config::Config& c) {
-    try {
-        rig::ClosedLoop loop{c, rig::motion(c)};
-    } catch (const config::ConfigError& error) {
-        return error.what();
-    }
-    return "none";
+    return test::refusal_by<config::ConfigError>([&] { rig::ClosedLoop loop{c, rig::motion(c)}; });
 }
 
 TEST(FaultWiring, FaultsThatAreToldReachTheTwin) {

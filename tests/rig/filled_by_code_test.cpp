@@ -44,12 +44,9 @@ TEST(FilledByCode, ANumberOutOfItsRangeIsRefusedByItsKey) {
         for (const double bad : member.bad) {
             config::Config c;
             member.set(c, bad);
-            try {
-                (void)rig::ClosedLoop{c, twin::Motion::rest()};
-                ADD_FAILURE() << member.key << " = " << bad << " was accepted";
-            } catch (const config::ConfigError& error) {
-                EXPECT_TRUE(std::string{error.what()}.starts_with(member.key)) << member.key << ": " << error.what();
-            }
+            const auto make = [&] { (void)rig::ClosedLoop{c, twin::Motion::rest()}; };
+            const std::string said = test::refusal_by<config::ConfigError>(make);
+            EXPECT_TRUE(said.starts_with(member.key)) << member.key << " = " << bad << ": " << said;
         }
     }
 }

@@ -1,16 +1,10 @@
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/analyze.hpp>
+
+#include "test.hpp"
 
 namespace {
 
@@ -27,12 +21,8 @@ study::AxisRecord white(std::size_t n, double mean, double deviation, unsigned s
 }
 
 std::string complaint(study::AxisRecord axis, const config::Analysis& c = {}) {
-    try {
-        (void)study::analyze_axis({.config = c}, std::move(axis));
-    } catch (const deviations::SeriesError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_by<deviations::SeriesError>(
+        [&] { (void)study::analyze_axis({.config = c}, std::move(axis)); });
 }
 
 TEST(Analyze, white_noise_with_gaps) {
@@ -188,12 +178,8 @@ TEST(Analyze, a_missing_angle_costs_three_differences_at_every_averaging) {
 
 TEST(Analyze, what_would_take_many_minutes_is_refused_with_its_cost) {
     const auto refusal = [](config::Analysis c, std::size_t n) {
-        try {
-            (void)study::analyze_axis({.config = std::move(c)}, white(n, 0.0, 1.0, 15));
-        } catch (const config::ConfigError& error) {
-            return std::string{error.what()};
-        }
-        return std::string{};
+        return test::refusal_by<config::ConfigError>(
+            [&] { (void)study::analyze_axis({.config = std::move(c)}, white(n, 0.0, 1.0, 15)); });
     };
     for (const auto kind : {config::Deviation::mtotdev, config::Deviation::htotdev}) {
         const std::string line = refusal(asking({kind}), 700000);
@@ -253,12 +239,7 @@ protected:
         return a;
     }
     static std::string refusal(const std::vector<study::AxisResult>& axes) {
-        try {
-            (void)study::kalibr_gyro(axes);
-        } catch (const deviations::SeriesError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusal_by<deviations::SeriesError>([&] { (void)study::kalibr_gyro(axes); });
     }
     static constexpr double rad = 3.14159265358979323846 / 648000.0;
 };

@@ -1,15 +1,12 @@
 #include <zlg/study/calibrate.hpp>
 
-#include <map>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <zlg/calibration/lab_reader.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,20 +1,11 @@
 // Calibration against the twin and the core: the constants of a hundred random gyros, within their standard errors.
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <map>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include <zlg/calibration/calibration.hpp>
 #include <zlg/calibration/lab_reader.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

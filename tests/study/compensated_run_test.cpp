@@ -1,6 +1,7 @@
-#include <gtest/gtest.h>
 #include <zlg/study/compensated_run.hpp>
 #include <zlg/study/run.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,13 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <fstream>
-#include <string>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/design/error.hpp>
 #include <zlg/study/design_study.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,8 +1,7 @@
-#include <string>
-#include <vector>
 
-#include <gtest/gtest.h>
 #include <zlg/study/fields.hpp>
+
+#include "test.hpp"
 
 namespace {
 

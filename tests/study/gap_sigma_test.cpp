@@ -1,16 +1,13 @@
 // Standard deviations in the gaps of closed loops, against the truth of the twin: of each tick, by its place in the
 // gap, and of the whole switch.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/replay.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/run.hpp>
+
+#include "test.hpp"
 
 namespace {
 

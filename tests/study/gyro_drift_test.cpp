@@ -1,6 +1,6 @@
 #include <zlg/study/gyro_drift.hpp>
 
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::study {
 namespace {

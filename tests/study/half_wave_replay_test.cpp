@@ -1,16 +1,10 @@
 #include <zlg/study/half_wave_replay.hpp>
 
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

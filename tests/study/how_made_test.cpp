@@ -1,7 +1,8 @@
-#include <gtest/gtest.h>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/study/how_made.hpp>
+
+#include "test.hpp"
 
 namespace {
 

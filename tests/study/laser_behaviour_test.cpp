@@ -1,12 +1,5 @@
 // What the paper reports, out of the four-wave laser and the loop, and what a laboratory makes of it.
 
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include <zlg/calibration/calibration.hpp>
 #include <zlg/calibration/lab_reader.hpp>
 #include <zlg/core/gyro_compensation.hpp>
@@ -14,6 +7,8 @@
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/twin.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 #include <zlg/study/reading_error.hpp>
 
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::study {
 namespace {

@@ -1,10 +1,8 @@
-#include <filesystem>
-#include <fstream>
-#include <string>
 
-#include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/study/resolved.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,8 +1,7 @@
-#include <algorithm>
-
-#include <gtest/gtest.h>
 
 #include <zlg/study/run_page.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,14 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/study/run.hpp>
+
+#include "test.hpp"
 
 namespace {
 

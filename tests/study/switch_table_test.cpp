@@ -1,8 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include <zlg/study/switch_table.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
-#include <cmath>
 
-#include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/study/compensated_run.hpp>
 #include <zlg/study/switch_trial.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,8 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <vector>
 
 #include <zlg/study/switch_window.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,6 +1,7 @@
-#include <gtest/gtest.h>
 
 #include <zlg/study/term_text.hpp>
+
+#include "test.hpp"
 
 namespace {
 

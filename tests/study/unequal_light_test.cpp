@@ -1,16 +1,12 @@
 // Gyros whose photodiodes are unequal, from the light to the angle.
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/core/health.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/compensated_run.hpp>
+
+#include "test.hpp"
 
 namespace {
 

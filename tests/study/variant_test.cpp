@@ -1,8 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include <zlg/study/variant.hpp>
+
+#include "test.hpp"
 
 namespace {
 

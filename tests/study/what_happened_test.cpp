@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
 
 #include <zlg/study/what_happened.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,8 +1,4 @@
 // Claims about descriptions: what is read is what is written, and what contradicts itself is refused with its place.
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 
 #include <zlg/sweep/description.hpp>
 
@@ -14,12 +10,7 @@ using namespace zlg;
 using namespace zlg::sweep;
 
 std::string refusal(const std::string& toml) {
-    try {
-        (void)parse(toml, "s.toml");
-    } catch (const config::ConfigError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal_by<config::ConfigError>([&] { (void)parse(toml, "s.toml"); });
 }
 
 std::string refusal_of_parameter(const std::string& parameter) {

@@ -1,9 +1,9 @@
 #pragma once
 // Descriptions of sweeps for the tests.
 
-#include <string>
-
 #include <zlg/sweep/description.hpp>
+
+#include "test.hpp"
 
 inline const std::string testing_metric = "[[metric]]\nname = \"configured.switch_error_rms_arcsec\"\n";
 

@@ -1,12 +1,4 @@
 // Claims about draws: each is of the law that it is asked for, and depends on nothing but seed, keys and gyro.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <set>
-#include <string>
-#include <vector>
 
 #include <zlg/sweep/draws.hpp>
 

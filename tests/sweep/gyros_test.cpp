@@ -1,7 +1,4 @@
 // Claims about the gyros of a sweep: each is the run that it names, and one that fails is a row with its reason.
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include <zlg/study/run.hpp>
 #include <zlg/sweep/gyros.hpp>

@@ -1,9 +1,8 @@
 // Claims about metrics: each name is a number of the summary, and costs what it asks for.
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include <zlg/sweep/metrics.hpp>
+
+#include "test.hpp"
 
 namespace {
 

@@ -1,35 +1,28 @@
 // Claims about the motion files of a sweep: those that its gyros may read are known by their bytes, and no others are
 // looked at.
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
 
 #include <fmt/format.h>
 #include <zlg/logs/error.hpp>
 #include <zlg/sweep/motion_files.hpp>
 
 #include "descriptions.hpp"
-#include "folder.hpp"
+#include "temporary_folder.hpp"
 
 namespace {
 
+using namespace zlg;
 using namespace zlg::sweep;
 
 class MotionFiles : public testing::Test {
 protected:
-    std::string written(const std::string& name, const std::string& bytes) {
-        write_bytes(folder_ / name, bytes);
-        return folder_ / name;
-    }
+    std::string written(const std::string& name, const std::string& bytes) { return folder_.write(name, bytes); }
     static Description moved_by(const std::string& kind, const std::string& path, const std::string& parameter = "") {
         return parse(fmt::format("[sweep]\ngyros = 4\n[base.motion]\nkind = \"{}\"\npath = \"{}\"\n{}{}", kind, path,
                                  parameter, testing_metric),
                      "s.toml");
     }
 
-    Folder folder_;
+    test::TemporaryFolder folder_;
 };
 
 // The checksums are the published ones of XXH64 with seed 0.
@@ -65,8 +58,8 @@ TEST_F(MotionFiles, that_have_changed_or_are_none_are_refused) {
     EXPECT_EQ(with_motion_checksums(before), before);
     written("a", "b");
     EXPECT_THROW((void)with_motion_checksums(before), zlg::logs::IoError);
-    EXPECT_THROW((void)with_motion_checksums(moved_by("file", folder_ / "nothing")), zlg::logs::IoError);
-    EXPECT_THROW((void)with_motion_checksums(moved_by("file", folder_ / "")), zlg::logs::IoError);
+    EXPECT_THROW((void)with_motion_checksums(moved_by("file", folder_.file("nothing"))), zlg::logs::IoError);
+    EXPECT_THROW((void)with_motion_checksums(moved_by("file", folder_.file(""))), zlg::logs::IoError);
 }
 
 TEST_F(MotionFiles, that_are_written_or_replaced_are_seen) {

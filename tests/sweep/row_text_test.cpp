@@ -1,11 +1,8 @@
 // Claims about the text of a row: it comes back bit for bit, and not at all where one character of it is wrong.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 #include <zlg/sweep/row_text.hpp>
+
+#include "test.hpp"
 
 namespace {
 

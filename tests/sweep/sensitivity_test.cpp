@@ -1,16 +1,5 @@
 // Claims about sensitivity: exact indices of known functions lie within the intervals, and a failed run breaks no
 // estimate.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <numeric>
-#include <random>
-#include <stdexcept>
-#include <vector>
 
 #include <zlg/chance/draw.hpp>
 #include <zlg/sweep/draws.hpp>

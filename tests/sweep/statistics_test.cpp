@@ -1,12 +1,4 @@
 // Claims about statistics: textbook values, and no failed gyro in a mean.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <random>
-#include <utility>
-#include <vector>
 
 #include <zlg/sweep/statistics.hpp>
 

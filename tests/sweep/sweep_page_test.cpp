@@ -1,8 +1,4 @@
 // Claims about the page of a sweep: it says what came out, whatever did.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
 
 #include <zlg/sweep/sweep_page.hpp>
 

@@ -1,7 +1,4 @@
 // Claims about tolerances: of a known rule for what passes, the parameter that decides is drawn in, and no other.
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include <zlg/sweep/tolerances.hpp>
 

@@ -1,6 +1,6 @@
 #include <zlg/trials/table_head.hpp>
 
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 TEST(TableHead, IsOneRowOfNamesAndTheRuleBelow) {
     EXPECT_EQ(zlg::trials::table_head({"fault", "after, ms"}), "| fault | after, ms |\n|---|---|\n");

@@ -1,15 +1,11 @@
 // The numbers of docs/physics.md that are of the default gas at 15 G, to their last digit.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include <zlg/twin/averaged_laser.hpp>
 #include <zlg/twin/discriminator_curve.hpp>
 #include <zlg/twin/laser_table.hpp>
 #include <zlg/twin/laser_zones.hpp>
+
+#include "test.hpp"
 
 namespace zlg::twin::default_gas {
 namespace {

@@ -1,16 +1,7 @@
 #include <zlg/trials/accuracy.hpp>
 
-#include <array>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "accuracy/parts.hpp"
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

@@ -1,10 +1,7 @@
 #include "accuracy/bound.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "synthetic/relock_decay.hpp"
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

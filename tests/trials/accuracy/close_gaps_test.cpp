@@ -1,19 +1,12 @@
 // Sigma of the angle and of each tick where a missed frame lies beside a switch, before it or after it, so that their
 // gaps share points, light and time; and of a pulse that the lit halves of a gap show.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/rig/wiring.hpp>
 
 #include "accuracy/parts.hpp"
 #include "synthetic/gyro.hpp"
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

@@ -1,11 +1,7 @@
 #include "accuracy/manoeuvres.hpp"
 
-#include <cmath>
-#include <numeric>
-
-#include <gtest/gtest.h>
-
 #include "accuracy/parts.hpp"
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

@@ -1,13 +1,8 @@
 #include <zlg/trials/sigma_campaign.hpp>
 
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "accuracy/parts.hpp"
 #include "accuracy/trial.hpp"
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

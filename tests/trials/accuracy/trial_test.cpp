@@ -1,10 +1,7 @@
 #include "accuracy/trial.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "accuracy/parts.hpp"
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

@@ -1,12 +1,8 @@
 #include <zlg/trials/drift_campaign.hpp>
 
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

@@ -1,12 +1,6 @@
 #include <zlg/trials/fault_campaign.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

@@ -1,13 +1,8 @@
 #include <zlg/trials/gyro_campaign.hpp>
 
-#include <algorithm>
-#include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include <zlg/config/schema.hpp>
+
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

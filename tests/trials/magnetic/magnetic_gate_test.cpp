@@ -1,11 +1,6 @@
 #include <zlg/trials/magnetic_gate.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <string>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

@@ -1,6 +1,7 @@
-#include <gtest/gtest.h>
 
 #include <zlg/trials/noise_campaign.hpp>
+
+#include "test.hpp"
 
 namespace {
 

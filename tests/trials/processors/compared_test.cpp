@@ -1,9 +1,10 @@
 #include <zlg/trials/compared.hpp>
 
-#include <gtest/gtest.h>
 #include <zlg/config/config.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

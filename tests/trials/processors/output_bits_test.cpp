@@ -1,8 +1,6 @@
 #include <zlg/trials/output_bits.hpp>
 
-#include <limits>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace {
 

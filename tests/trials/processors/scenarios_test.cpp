@@ -1,11 +1,10 @@
 #include <zlg/trials/scenarios.hpp>
 
-#include <set>
-
-#include <gtest/gtest.h>
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
+
+#include "test.hpp"
 
 namespace {
 

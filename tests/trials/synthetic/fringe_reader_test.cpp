@@ -1,9 +1,5 @@
 #include "synthetic/fringe_reader.hpp"
-
-#include <cmath>
-#include <numbers>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {

@@ -1,11 +1,5 @@
 #include "synthetic/gyro.hpp"
-
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "test.hpp"
 
 namespace zlg::trials {
 namespace {
