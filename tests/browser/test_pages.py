@@ -10,25 +10,13 @@ from chromium import PROGRAM, Browser
 ROOT = Path(__file__).resolve().parents[2]
 ZLG = ROOT / "build" / "release" / "bin" / "zlg"
 
-SWEEP = """
-[sweep]
-gyros = 12
-seed = 1
-duration_s = 5
-[base.switching]
-interval_s = 1
-[[parameter]]
-keys = ["piezo.half_wave_v"]
-draw = "uniform"
-min = 39
-max = 41
-[[parameter]]
-keys = ["compensation.relock"]
-draw = "list"
-values = ["joint", "mean_square"]
-[[metric]]
-name = "configured.switch_error_rms_arcsec"
-max = 3
+SWEEP = """sweep = {gyros = 12, seed = 1, duration_s = 5}
+base.switching.interval_s = 1
+parameter = [
+    {keys = ["piezo.half_wave_v"], draw = "uniform", min = 39, max = 41},
+    {keys = ["compensation.relock"], draw = "list", values = ["joint", "mean_square"]},
+]
+metric = [{name = "configured.switch_error_rms_arcsec", max = 3}]
 """
 
 # Of the figure with an error bar on each point.

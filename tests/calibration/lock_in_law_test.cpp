@@ -2,8 +2,7 @@
 
 #include "synthetic_gyro.hpp"
 
-namespace zlg::calibration {
-namespace {
+namespace zlg::calibration::lock_in_law_test {
 
 using synthetic::SyntheticGyro;
 
@@ -64,5 +63,4 @@ TEST(LockInLaw, FewRatesAreRefusedInOneLine) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::calibration
+}  // namespace zlg::calibration::lock_in_law_test

@@ -4,10 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::calibration;
+namespace zlg::calibration::rate_table_test {
 
 struct Table {
     std::vector<double> input, output;
@@ -138,4 +135,4 @@ TEST(RateTable, refuses_what_has_no_scale_factor) {
     EXPECT_THROW((void)rate_table({}, {}), deviations::SeriesError);
 }
 
-}  // namespace
+}  // namespace zlg::calibration::rate_table_test

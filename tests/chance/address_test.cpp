@@ -6,8 +6,7 @@
 #include "philox.hpp"
 #include "test.hpp"
 
-namespace zlg::chance {
-namespace {
+namespace zlg::chance::address_test {
 
 constexpr Address somewhere{
     .seed = 0x0123456789abcdefu, .gyro = 0x89abcdefu, .cause = Cause::test, .half = 0x765443211234u};
@@ -131,5 +130,4 @@ TEST(Address, NeighboursAreUncorrelated) {
         }
 }
 
-}  // namespace
-}  // namespace zlg::chance
+}  // namespace zlg::chance::address_test

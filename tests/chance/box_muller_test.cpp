@@ -3,8 +3,7 @@
 #include "box_muller.hpp"
 #include "test.hpp"
 
-namespace zlg::chance {
-namespace {
+namespace zlg::chance::box_muller_test {
 
 constexpr std::uint64_t radii = std::uint64_t{1} << 40;
 constexpr std::uint64_t angles = std::uint64_t{1} << 22;
@@ -62,5 +61,4 @@ TEST(BoxMuller, TheFourQuadrantsMirrorEachOther) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::chance
+}  // namespace zlg::chance::box_muller_test

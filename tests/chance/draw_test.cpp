@@ -4,8 +4,7 @@
 
 #include "test.hpp"
 
-namespace zlg::chance {
-namespace {
+namespace zlg::chance::draw_test {
 
 TEST(Draw, NumbersAreThoseOfTheAddressFromIndexZeroOn) {
     const Address address{.seed = 5, .gyro = 7, .cause = Cause::test, .half = 6};
@@ -43,5 +42,4 @@ TEST(Draw, ChoicesAreOfTheArrayAndAllOfThem) {
     for (const int count : counts) EXPECT_GT(count, 50);
 }
 
-}  // namespace
-}  // namespace zlg::chance
+}  // namespace zlg::chance::draw_test

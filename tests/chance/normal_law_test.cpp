@@ -4,8 +4,7 @@
 
 #include "test.hpp"
 
-namespace zlg::chance {
-namespace {
+namespace zlg::chance::normal_law_test {
 
 constexpr std::size_t n_deviates = 10'000'000;
 
@@ -62,5 +61,4 @@ TEST(NormalLaw, TheTailsHoldAsManyAsTheyShould) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::chance
+}  // namespace zlg::chance::normal_law_test

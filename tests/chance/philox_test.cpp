@@ -6,8 +6,7 @@
 
 #include <Random123/philox.h>
 
-namespace zlg::chance {
-namespace {
+namespace zlg::chance::philox_test {
 
 struct KnownAnswer {
     Counter counter;
@@ -63,5 +62,4 @@ TEST(Philox, ManyBlocksAtOnceAreThoseTakenOneByOne) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::chance
+}  // namespace zlg::chance::philox_test

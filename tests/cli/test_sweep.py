@@ -15,53 +15,24 @@ import numpy
 
 from support import ZLG, CliTest, complaints, is_larger, run, wait_until
 
-SWEEP = """[sweep]
-gyros = 12
-seed = 7
-duration_s = 6
-[base.switching]
-interval_s = 2
-[[parameter]]
-keys = ["piezo.half_wave_v"]
-draw = "normal"
-mean = 40
-sd = 1
-[[parameter]]
-keys = ["compensation.relock"]
-draw = "list"
-values = ["mean_square", "detuning"]
-[[parameter]]
-keys = ["gyro.bias_chi"]
-draw = "sobol"
-min = 3.4
-max = 3.8
-[[metric]]
-name = "configured.switch_error_rms_arcsec"
-max = 3
-[[metric]]
-name = "bridge_quadratic.angle_error_arcsec"
-[[metric]]
-name = "switches"
-min = 1
+SWEEP = """sweep = {gyros = 12, seed = 7, duration_s = 6}
+base.switching.interval_s = 2
+parameter = [
+    {keys = ["piezo.half_wave_v"], draw = "normal", mean = 40, sd = 1},
+    {keys = ["compensation.relock"], draw = "list", values = ["mean_square", "detuning"]},
+    {keys = ["gyro.bias_chi"], draw = "sobol", min = 3.4, max = 3.8},
+]
+metric = [{name = "configured.switch_error_rms_arcsec", max = 3}, {name = "bridge_quadratic.angle_error_arcsec"}, {name = "switches", min = 1}]
 """
 
 # Half of these gyros are refused: their light noise is negative.
-FAILING = """[sweep]
-gyros = 8
-duration_s = 6
-[base.switching]
-interval_s = 2
-[[parameter]]
-keys = ["gyro.light_noise_lambda"]
-draw = "list"
-values = [0.003, 0.002]
-[[parameter]]
-keys = ["drift.random_walk_arcsec_sqrt_s"]
-draw = "normal"
-mean = 0
-sd = 1
-[[metric]]
-name = "configured.switch_error_rms_arcsec"
+FAILING = """sweep = {gyros = 8, duration_s = 6}
+base.switching.interval_s = 2
+parameter = [
+    {keys = ["gyro.light_noise_lambda"], draw = "list", values = [0.003, 0.002]},
+    {keys = ["drift.random_walk_arcsec_sqrt_s"], draw = "normal", mean = 0, sd = 1},
+]
+metric = [{name = "configured.switch_error_rms_arcsec"}]
 """
 
 
@@ -272,7 +243,7 @@ class BadInput(SweepTest):
         motion, out, part = (self.folder / name for name in ("motion.csv", "r.h5", "r.h5.part"))
         bytes_before = "".join(f"{k % 7}\n" for k in range(1000)).encode()
         motion.write_bytes(bytes_before)
-        text = SWEEP.replace("[base.switching]", f"[base.motion]\nkind = 'file'\npath = '{motion}'\n[base.switching]").replace("gyros = 12", "gyros = 2000")
+        text = SWEEP.replace("base.", f"base.motion = {{kind = 'file', path = '{motion}'}}\nbase.").replace("gyros = 12", "gyros = 2000")
         description = self.description(text)
         sweep = subprocess.Popen([ZLG, "sweep", description, "--out", out], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         wait_until(lambda: is_larger(part, 5000), sweep)

@@ -16,24 +16,13 @@ MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIR
                    "OMPI_MCA_orte_execute_quiet": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
                    "PRTE_MCA_hwloc_default_binding_policy": "none"}
 
-SWEEP = """[sweep]
-gyros = {gyros}
-seed = 7
-duration_s = {duration_s}
-[base.switching]
-interval_s = 2
-[[parameter]]
-keys = ["piezo.half_wave_v"]
-draw = "normal"
-mean = 40
-sd = 1
-[[parameter]]
-keys = ["compensation.relock"]
-draw = "list"
-values = ["mean_square", "detuning"]
-[[metric]]
-name = "configured.switch_error_rms_arcsec"
-max = 3
+SWEEP = """sweep = {{gyros = {gyros}, seed = 7, duration_s = {duration_s}}}
+base.switching.interval_s = 2
+parameter = [
+    {{keys = ["piezo.half_wave_v"], draw = "normal", mean = 40, sd = 1}},
+    {{keys = ["compensation.relock"], draw = "list", values = ["mean_square", "detuning"]}},
+]
+metric = [{{name = "configured.switch_error_rms_arcsec", max = 3}}]
 """
 
 

@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::config;
+namespace zlg::config::analysis_test {
 
 TEST(AnalysisConfig, nothing_is_presumed_of_a_text_file) {
     const Config c;
@@ -61,4 +59,4 @@ TEST(AnalysisConfig, other_numbers_have_their_ranges) {
     EXPECT_THROW(apply_set(c, "analysis.latitude_deg=91"), ConfigError);
 }
 
-}  // namespace
+}  // namespace zlg::config::analysis_test

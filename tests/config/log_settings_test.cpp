@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::config {
-namespace {
+namespace zlg::config::log_settings_test {
 
 TEST(LogSettings, ALogMayNameItsTickAndScaleWithoutASection) {
     EXPECT_EQ(checked_log_settings({{"tick_s", "0.005"}, {"scale_arcsec", "3"}, {"note", "x"}}, "log"),
@@ -91,5 +90,4 @@ TEST(FormerKeysNote, AnUnknownValueIsRefusedInALogToo) {
     EXPECT_THROW(apply_log(c, {{"switching.after_steps", "\"wait\""}}, "raw.csv"), ConfigError);
 }
 
-}  // namespace
-}  // namespace zlg::config
+}  // namespace zlg::config::log_settings_test

@@ -3,8 +3,7 @@
 
 #include <unistd.h>
 
-namespace zlg::config {
-namespace {
+namespace zlg::config::schema_layers_test {
 
 using core::BridgeMethod;
 
@@ -70,5 +69,4 @@ TEST(Schema, AFileIsReadOrItsFailureTold) {
     expect_contains(complaint([&] { apply_file(c, path.parent_path()); }), "it is a folder");
 }
 
-}  // namespace
-}  // namespace zlg::config
+}  // namespace zlg::config::schema_layers_test

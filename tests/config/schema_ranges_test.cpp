@@ -3,8 +3,7 @@
 
 #include <regex>
 
-namespace zlg::config {
-namespace {
+namespace zlg::config::schema_ranges_test {
 
 // What a text such as `above 0 up to 1e9` allows.
 struct Range {
@@ -99,5 +98,4 @@ TEST(Schema, TheTableSaysWhatIsAllowedOfANumberOfEitherSignAndOfZeroOrMore) {
         expect_contains(complaint([&] { apply_pair(c, "piezo.mirror_hz", bad, "test"); }), "allowed is 0 or 100..1e6");
 }
 
-}  // namespace
-}  // namespace zlg::config
+}  // namespace zlg::config::schema_ranges_test

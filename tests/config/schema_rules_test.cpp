@@ -1,8 +1,7 @@
 // Rules between keys.
 #include "schema_support.hpp"
 
-namespace zlg::config {
-namespace {
+namespace zlg::config::schema_rules_test {
 
 using twin::FaultKind;
 
@@ -125,5 +124,4 @@ TEST(Schema, EdgesAreShiftedOnlyInAGyroThatObeys) {
     EXPECT_NO_THROW(check_compensation(with({"gyro.dither=auto"})));
 }
 
-}  // namespace
-}  // namespace zlg::config
+}  // namespace zlg::config::schema_rules_test

@@ -1,8 +1,7 @@
 // The table of keys: each key is a member of its own, with its kind, its choices and its place in the reference.
 #include "schema_support.hpp"
 
-namespace zlg::config {
-namespace {
+namespace zlg::config::schema_test {
 
 using core::BridgeMethod;
 using core::DitherMethod;
@@ -129,5 +128,4 @@ TEST(Schema, TheReferenceDocumentsEveryKeyWithItsDefault) {
     expect_contains(text, "| `duration_s` | s | unset | above 0 up to 1e9 |");
 }
 
-}  // namespace
-}  // namespace zlg::config
+}  // namespace zlg::config::schema_test

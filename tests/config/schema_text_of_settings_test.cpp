@@ -4,8 +4,7 @@
 #include <rapidcheck/gtest.h>
 #include <stdlib.h>
 
-namespace zlg::config {
-namespace {
+namespace zlg::config::schema_text_of_settings_test {
 
 using core::RelockMethod;
 using twin::FaultKind;
@@ -116,5 +115,4 @@ TEST(Schema, AnUnsetListIsNotWritten) {
     for (const auto& [key, value] : to_settings(Config{})) EXPECT_EQ(key.find("discriminator_s"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace zlg::config
+}  // namespace zlg::config::schema_text_of_settings_test

@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::config;
+namespace zlg::config::schema_text_test {
 
 TEST(ConfigText, WhatIsNotUtf8IsRefusedByEveryWayIn) {
     for (const char* bad : {"\xff", "a b\xd2\x8b\x87", "\xc0\xaf", "\xed\xa0\x80"}) {
@@ -29,4 +27,4 @@ TEST(ConfigText, ABareWordOfTheCommandLineIsReadBackFromItsToml) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::config::schema_text_test

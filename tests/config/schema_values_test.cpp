@@ -1,8 +1,7 @@
 // Values: read by their kind, or refused with the place, the value and what is allowed.
 #include "schema_support.hpp"
 
-namespace zlg::config {
-namespace {
+namespace zlg::config::schema_values_test {
 
 using core::BridgeMethod;
 using core::RelockMethod;
@@ -128,5 +127,4 @@ TEST(Schema, AValueOutOfRangeIsToldWhatIsAllowed) {
     expect_refused(set_complaint("design.run_lengths_s=[]"), "design.run_lengths_s", "[]", "one number or an array");
 }
 
-}  // namespace
-}  // namespace zlg::config
+}  // namespace zlg::config::schema_values_test

@@ -6,8 +6,7 @@
 #include "magnetic_segments.hpp"
 #include "paper_case.hpp"
 
-namespace zlg::design {
-namespace {
+namespace zlg::design::drift_budget_test {
 
 using core::not_a_number;
 
@@ -239,5 +238,4 @@ TEST(DriftBudget, ABudgetIsAMagnitude) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::design
+}  // namespace zlg::design::drift_budget_test

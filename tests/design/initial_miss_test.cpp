@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::design;
+namespace zlg::design::initial_miss_test {
 
 double part(const InitialMiss& miss, std::string_view name) {
     for (const MissPart& p : miss.part) {
@@ -91,4 +89,4 @@ TEST(InitialMiss, RefusesWhatIsOutOfRange) {
     EXPECT_THROW((void)voltage_of_miss_v(0.2, 0.0), DesignError);
 }
 
-}  // namespace
+}  // namespace zlg::design::initial_miss_test

@@ -7,8 +7,7 @@
 #include "paper_case.hpp"
 #include "test.hpp"
 
-namespace zlg::design {
-namespace {
+namespace zlg::design::interval_formula_test {
 
 using core::infinity;
 constexpr std::array run_lengths_s{600.0, 900.0, 3600.0, 36000.0};
@@ -176,5 +175,4 @@ TEST(IntervalFormula, ACaseThatCannotBeIsRefused) {
     EXPECT_THROW((void)longest_run_as_printed_s({.thermal_time_s = -1.0}, 10.0), DesignError);
 }
 
-}  // namespace
-}  // namespace zlg::design
+}  // namespace zlg::design::interval_formula_test

@@ -5,8 +5,7 @@
 
 #include "magnetic_segments.hpp"
 
-namespace zlg::design {
-namespace {
+namespace zlg::design::magnetic_angle_test {
 
 constexpr GyroDrift warm{.magnetic_arcsec_s = 0.7, .magnetic_thermal_arcsec_s = 14.0, .thermal_time_s = 3000.0};
 using core::infinity;
@@ -165,5 +164,4 @@ TEST(MagneticAngle, InsideThatRunTheAngleSwings96ArcsecToEitherSide) {
     EXPECT_NEAR(highest, 83.0, 3.0);
 }
 
-}  // namespace
-}  // namespace zlg::design
+}  // namespace zlg::design::magnetic_angle_test

@@ -6,9 +6,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::design::perimeter_response_test {
 
-using namespace zlg::design;
 using std::numbers::pi;
 using Complex = std::complex<double>;
 
@@ -167,4 +166,4 @@ TEST(PerimeterResponse, RefusesWhatIsOutOfRange) {
     EXPECT_THROW((void)sampled_stability_limit(-1), DesignError);
 }
 
-}  // namespace
+}  // namespace zlg::design::perimeter_response_test

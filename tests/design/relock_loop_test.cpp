@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::design;
+namespace zlg::design::relock_loop_test {
 
 constexpr double none = RelockLoop::none;
 constexpr double T = 0.005;
@@ -193,4 +191,4 @@ TEST(RelockLoop, RefusesWhatIsOutOfRange) {
     EXPECT_THROW((void)false_angle_law_arcsec(nan, T), DesignError);
 }
 
-}  // namespace
+}  // namespace zlg::design::relock_loop_test

@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::design;
+namespace zlg::design::relock_tables_test {
 
 constexpr double T = table_tick_s;
 constexpr Decay decays[] = {Decay::exponential, Decay::slew, Decay::slew_tail, Decay::critical};
@@ -223,4 +221,4 @@ TEST(RelockTables, RefusesWhatIsOutOfRange) {
     EXPECT_THROW((void)fit_relock(Decay::slew, {1.0, std::nan(""), 0.0, 0.0}), DesignError);
 }
 
-}  // namespace
+}  // namespace zlg::design::relock_tables_test

@@ -6,9 +6,8 @@
 
 #include "substitution_support.hpp"
 
-namespace {
+namespace zlg::design::substitution_noise_test {
 
-using namespace zlg::design;
 using namespace substitution_test;
 
 TEST(SubstitutionNoise, SigmaOfTheSumOverThreeTicks) {
@@ -182,4 +181,4 @@ TEST(SubstitutionNoise, AnOrderThatIsBetterInBothWinsFromTheStart) {
     EXPECT_EQ(*ratio, 0.0);
 }
 
-}  // namespace
+}  // namespace zlg::design::substitution_noise_test

@@ -8,11 +8,8 @@
 
 #include "test.hpp"
 
-namespace substitution_test {
+namespace zlg::design::substitution_test {
 
-using zlg::design::Fit;
-using zlg::design::Points;
-using zlg::design::Substitution;
 using Rational = boost::multiprecision::cpp_rational;
 
 inline std::vector<int> points_of(const Substitution& s) {
@@ -109,4 +106,4 @@ inline double real_between(double low, double high) {
     return low + (high - low) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 1000001)) / 1e6;
 }
 
-}  // namespace substitution_test
+}  // namespace zlg::design::substitution_test

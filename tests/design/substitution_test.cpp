@@ -6,10 +6,8 @@
 
 #include "substitution_support.hpp"
 
-namespace {
+namespace zlg::design::substitution_test {
 
-using namespace zlg::design;
-using namespace substitution_test;
 using std::numbers::pi;
 
 constexpr double amplitude = 12000.0;
@@ -200,4 +198,4 @@ TEST(Substitution, RefusesWhatHasNoAnswer) {
     EXPECT_THROW((void)worst(response, {nan, 1.0}), DesignError);
 }
 
-}  // namespace
+}  // namespace zlg::design::substitution_test

@@ -5,8 +5,7 @@
 #include "magnetic_segments.hpp"
 #include "paper_case.hpp"
 
-namespace zlg::design {
-namespace {
+namespace zlg::design::switching_interval_test {
 
 // --- the paper's figures 4 and 5 -----------------------------------------------------------------------------------
 
@@ -326,5 +325,4 @@ TEST(SwitchingInterval, AnIntervalMissedBy30PercentCosts6And3_5PercentOfTheExces
     EXPECT_FALSE(sensitivity(IntervalMethod::worst_case, paper(0.7, 3.0)).longer_arcsec_s.has_value());
 }
 
-}  // namespace
-}  // namespace zlg::design
+}  // namespace zlg::design::switching_interval_test

@@ -4,9 +4,8 @@
 
 #include "substitution_support.hpp"
 
-namespace {
+namespace zlg::design::taylor_test {
 
-using namespace zlg::design;
 using std::numbers::pi;
 
 constexpr Tone tone{12000.0, 20.0};
@@ -102,4 +101,4 @@ TEST(Taylor, RefusesWhatIsOutOfRange) {
     EXPECT_THROW((void)figure_time_s(0, 0.005), DesignError);
 }
 
-}  // namespace
+}  // namespace zlg::design::taylor_test

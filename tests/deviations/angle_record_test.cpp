@@ -2,9 +2,7 @@
 
 #include "records.hpp"
 
-using namespace zlg::deviations;
-
-namespace {
+namespace zlg::deviations::angle_record_test {
 
 constexpr SeriesKind rates{DataKind::rate, Unit::one, 1.0};
 
@@ -66,4 +64,4 @@ TEST(AngleRecord, refuses_what_has_nothing_to_say) {
     EXPECT_THROW(AngleRecord(rates, std::vector<double>{}), SeriesError);
 }
 
-}  // namespace
+}  // namespace zlg::deviations::angle_record_test

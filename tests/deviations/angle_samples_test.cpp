@@ -6,10 +6,7 @@
 
 #include "temporary_folder.hpp"
 
-using namespace zlg;
-using namespace zlg::deviations;
-
-namespace {
+namespace zlg::deviations::angle_samples_test {
 
 class AngleSamplesTest : public testing::Test {
 protected:
@@ -68,10 +65,10 @@ TEST_F(AngleSamplesTest, keeps_what_is_not_said_to_be_missing) {
 }
 
 TEST_F(AngleSamplesTest, needs_a_log_that_says_how_long_a_tick_is) {
-    EXPECT_THROW((void)angle_samples((folder_ / "none.csv").string()), logs::IoError);
-    const auto path = folder_ / "bare.csv";
+    EXPECT_THROW((void)angle_samples(folder_.file("none.csv")), logs::IoError);
+    const auto path = folder_.file("bare.csv");
     std::ofstream(path) << "tick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags\n0,0.005,1,1,0,1,0\n";
-    EXPECT_THROW((void)angle_samples(path.string()), logs::FormatError);
+    EXPECT_THROW((void)angle_samples(path), logs::FormatError);
 }
 
-}  // namespace
+}  // namespace zlg::deviations::angle_samples_test

@@ -4,10 +4,9 @@
 
 #include "test.hpp"
 
-using namespace zlg::deviations;
 using Factors = std::vector<std::int64_t>;
 
-namespace {
+namespace zlg::deviations::averaging_test {
 
 TEST(Averaging, has_octaves_decades_all_and_many_per_decade) {
     EXPECT_EQ(octave_factors(20), (Factors{1, 2, 4, 8, 16}));
@@ -46,4 +45,4 @@ TEST(Averaging, is_longest_where_one_term_is_left) {
     EXPECT_EQ(largest_factor(DeviationKind::totdev, 21), 10);
 }
 
-}  // namespace
+}  // namespace zlg::deviations::averaging_test

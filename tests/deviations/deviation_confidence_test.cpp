@@ -8,9 +8,7 @@
 
 #include "records.hpp"
 
-using namespace zlg::deviations;
-
-namespace {
+namespace zlg::deviations::deviation_confidence_test {
 
 // Terms of a deviation as a matrix on the angles: each row one difference.
 Eigen::MatrixXd terms(DeviationKind kind, int m, int n_intervals) {
@@ -249,4 +247,4 @@ TEST(DeviationConfidence, holds_the_truth_at_the_longest_averaging_times) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::deviations::deviation_confidence_test

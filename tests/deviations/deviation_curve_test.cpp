@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-using namespace zlg::deviations;
-
-namespace {
+namespace zlg::deviations::deviation_curve_test {
 
 TEST(DeviationCurve, a_bias_is_known_by_its_name) {
     for (const TotalBias bias : {TotalBias::removed, TotalBias::published, TotalBias::as_computed})
@@ -23,4 +21,4 @@ TEST(DeviationCurve, an_option_out_of_its_range_is_refused) {
     for (const int bad : {3, -5}) EXPECT_THROW(check(DeviationOptions{.noise = bad}), SeriesError) << bad;
 }
 
-}  // namespace
+}  // namespace zlg::deviations::deviation_curve_test

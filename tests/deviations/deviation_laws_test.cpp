@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-using namespace zlg::deviations;
-
-namespace {
+namespace zlg::deviations::deviation_laws_test {
 
 constexpr int records = 200;
 constexpr int n = 420;
@@ -146,4 +144,4 @@ TEST(DeviationLaws, of_white_noise_hold_with_gaps) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::deviations::deviation_laws_test

@@ -5,8 +5,7 @@
 #include "nbs14.hpp"
 #include "records.hpp"
 
-namespace zlg::deviations {
-namespace {
+namespace zlg::deviations::deviation_published_test {
 
 double deviation_of(const AngleRecord& record, DeviationKind kind, std::int64_t m,
                     TotalBias bias = TotalBias::published) {
@@ -97,5 +96,4 @@ TEST(DeviationPublished, agrees_with_an_independent_implementation_to_all_digits
         }
 }
 
-}  // namespace
-}  // namespace zlg::deviations
+}  // namespace zlg::deviations::deviation_published_test

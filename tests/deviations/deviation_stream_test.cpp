@@ -5,8 +5,7 @@
 #include "direct_deviation.hpp"
 #include "records.hpp"
 
-namespace zlg::deviations {
-namespace {
+namespace zlg::deviations::deviation_stream_test {
 
 const std::vector<DeviationKind> streamed_kinds{DeviationKind::oadev, DeviationKind::mdev, DeviationKind::tdev,
                                                 DeviationKind::ohdev};
@@ -158,5 +157,4 @@ TEST(DeviationStream, refuses_what_it_cannot_do) {
     EXPECT_THROW(stream.add(two, one), SeriesError);
 }
 
-}  // namespace
-}  // namespace zlg::deviations
+}  // namespace zlg::deviations::deviation_stream_test

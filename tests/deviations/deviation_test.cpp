@@ -7,8 +7,7 @@
 #include "sums/difference_sums.hpp"
 #include "sums/lane_sum.hpp"
 
-namespace zlg::deviations {
-namespace {
+namespace zlg::deviations::deviation_test {
 
 double at(const AngleRecord& record, DeviationKind kind, std::int64_t m,
           const DeviationOptions& options = {.noise = 0}) {
@@ -248,5 +247,4 @@ TEST(Deviation, leaves_out_averaging_times_that_have_no_term) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::deviations
+}  // namespace zlg::deviations::deviation_test

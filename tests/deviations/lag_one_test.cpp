@@ -1,9 +1,7 @@
 #include "lag_one.hpp"
 #include "test.hpp"
 
-using namespace zlg::deviations;
-
-namespace {
+namespace zlg::deviations::lag_one_test {
 
 // Lag-1 autocorrelation of 1, 2, ..., 40 with 0 between is known: alternating numbers have r1 near -1/2 or beyond.
 TEST(LagOne, has_the_exponent_of_a_short_known_sequence) {
@@ -17,4 +15,4 @@ TEST(LagOne, has_the_exponent_of_a_short_known_sequence) {
     EXPECT_FALSE(constant.exponent().has_value());
 }
 
-}  // namespace
+}  // namespace zlg::deviations::lag_one_test

@@ -2,9 +2,7 @@
 
 #include "test.hpp"
 
-using namespace zlg::deviations;
-
-namespace {
+namespace zlg::deviations::noise_identification_test {
 
 std::vector<double> white(int n, unsigned seed) {
     std::mt19937_64 engine(seed);
@@ -72,4 +70,4 @@ TEST(NoiseIdentification, weighs_steps_by_their_means) {
     EXPECT_DOUBLE_EQ(*noise_exponent(steps, 1000), (400.0 - 100.0) / 700.0);
 }
 
-}  // namespace
+}  // namespace zlg::deviations::noise_identification_test

@@ -2,9 +2,7 @@
 
 #include "test.hpp"
 
-using namespace zlg::deviations;
-
-namespace {
+namespace zlg::deviations::series_test {
 
 const std::vector<double> two{1.0, 2.0};
 
@@ -59,4 +57,4 @@ TEST(Series, counts_units_in_arcsec) {
     EXPECT_DOUBLE_EQ(rate_scale({DataKind::rate, Unit::arcsec_s, 200.0}), 1.0);
 }
 
-}  // namespace
+}  // namespace zlg::deviations::series_test

@@ -2,9 +2,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::firmware;
+namespace zlg::firmware::exchange_test {
 
 TEST(Exchange, begins_with_what_tells_the_processor_that_a_host_is_there) {
     // The processor looks at the first word of the memory before it knows anything else.
@@ -23,4 +21,4 @@ TEST(Exchange, fits_the_memory_that_is_shared) { EXPECT_LT(sizeof(Exchange), 16u
 
 TEST(Exchange, has_no_layout_that_empty_memory_could_claim) { EXPECT_NE(layout(), 0u); }
 
-}  // namespace
+}  // namespace zlg::firmware::exchange_test

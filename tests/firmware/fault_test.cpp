@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::firmware {
-namespace {
+namespace zlg::firmware::fault_test {
 
 // Bits as ARMv7-M's manual gives them, section B3.2.15.
 TEST(Fault, the_registers_tell_what_it_was) {
@@ -91,5 +90,4 @@ TEST(Fault, the_longest_line_fits) {
     EXPECT_TRUE(text.view().ends_with("overruns=4294967295")) << text.view();
 }
 
-}  // namespace
-}  // namespace zlg::firmware
+}  // namespace zlg::firmware::fault_test

@@ -2,9 +2,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::gyro_test {
 
-using namespace zlg;
 using firmware::Gyro;
 
 core::SensorFrame frame_of(std::uint32_t half, const core::ActuatorFrame& actuator) {
@@ -112,4 +111,4 @@ TEST(GyroSettings, are_refused_by_the_part_that_cannot_use_them) {
     EXPECT_EQ(firmware::check(settings).compensation, core::GyroCompensationFault::random_walk);
 }
 
-}  // namespace
+}  // namespace zlg::gyro_test

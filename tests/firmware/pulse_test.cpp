@@ -2,9 +2,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::pulse_test {
 
-using namespace zlg;
 using firmware::Pulse;
 using firmware::time_of;
 
@@ -26,4 +25,4 @@ TEST(Pulse, without_one_or_with_one_that_is_later_or_long_past_there_is_the_time
     EXPECT_TRUE(time_of(late - 1, Pulse{.n = 3, .stamp_ticks = 1'000}).synchronised);
 }
 
-}  // namespace
+}  // namespace zlg::pulse_test

@@ -4,9 +4,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::telemetry_queue_test {
 
-using namespace zlg;
 using firmware::HalfOutput;
 using firmware::TelemetryQueue;
 
@@ -79,4 +78,4 @@ TEST(TelemetryQueue, begins_anew) {
     EXPECT_EQ(turned_arcsec(message.angle), 2.0);
 }
 
-}  // namespace
+}  // namespace zlg::telemetry_queue_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::live {
-namespace {
+namespace zlg::live::page_request_test {
 
 constexpr std::uint16_t port = 8137;
 
@@ -74,5 +73,4 @@ TEST(PageRequests, WithABodyAreRefused) {
     EXPECT_EQ(reply_to(request, port), Reply::bad_request);
 }
 
-}  // namespace
-}  // namespace zlg::live
+}  // namespace zlg::live::page_request_test

@@ -9,8 +9,7 @@
 
 #include "test.hpp"
 
-namespace zlg::live {
-namespace {
+namespace zlg::live::page_server_test {
 
 // One connection to a port of this machine.
 class Peer {
@@ -119,5 +118,4 @@ TEST(PageServers, TakeRecordsWhilePagesComeAndGo) {
     test::expect_contains(stream.hear("\"ended\":true"), "\"ended\":true");
 }
 
-}  // namespace
-}  // namespace zlg::live
+}  // namespace zlg::live::page_server_test

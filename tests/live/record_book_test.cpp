@@ -5,8 +5,7 @@
 #include "test.hpp"
 #include "thinned.hpp"
 
-namespace zlg::live {
-namespace {
+namespace zlg::live::record_book_test {
 
 using nlohmann::json;
 
@@ -193,5 +192,4 @@ TEST(ThinnedRecords, KeepEveryStrideThOfAll) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::live
+}  // namespace zlg::live::record_book_test

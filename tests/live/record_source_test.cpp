@@ -8,8 +8,7 @@
 #include "temporary_folder.hpp"
 #include "test.hpp"
 
-namespace zlg::live {
-namespace {
+namespace zlg::live::record_source_test {
 
 using Next = RecordSource::Next;
 
@@ -113,5 +112,4 @@ TEST_F(Sources, ThatAreStoppedReadNoMore) {
     EXPECT_EQ(source->next(record), Next::end);
 }
 
-}  // namespace
-}  // namespace zlg::live
+}  // namespace zlg::live::record_source_test

@@ -4,8 +4,7 @@
 
 #include "test.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::budget_test {
 
 TEST(Budget, counts_all_arrays_of_a_file_together) {
     Budget budget{"a.h5", 1000};
@@ -52,5 +51,4 @@ TEST(Budget, ten_thousand_objects_are_enough) {
     EXPECT_THROW(budget.take_object(), FormatError);
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::budget_test

@@ -3,8 +3,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::byte_source_test {
 
 TEST(ByteSource, GivesTheBytesOfAFileAndItsEnd) {
     const test::TemporaryFolder folder;
@@ -35,5 +34,4 @@ TEST(ByteSource, SaysWhatNoSourceIs) {
     EXPECT_THROW((ByteSource{folder.file(""), 921600}), IoError);
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::byte_source_test

@@ -5,9 +5,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace {
-
-using namespace zlg::logs;
+namespace zlg::logs::column_file_test {
 
 class ColumnFiles : public testing::Test {
 protected:
@@ -71,4 +69,4 @@ TEST_F(ColumnFiles, stay_as_they_were_where_writing_fails) {
 
 TEST_F(ColumnFiles, need_a_folder) { EXPECT_THROW(write_columns(folder_.file("none/c.h5"), three()), IoError); }
 
-}  // namespace
+}  // namespace zlg::logs::column_file_test

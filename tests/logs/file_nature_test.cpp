@@ -3,9 +3,8 @@
 
 #include "temporary_folder.hpp"
 
-namespace {
+namespace zlg::logs::file_nature_test {
 
-using namespace zlg::logs;
 using namespace std::string_view_literals;
 
 class FileNature : public ::testing::Test {
@@ -73,4 +72,4 @@ TEST_F(FileNature, what_is_no_text_is_refused_as_what_it_is) {
     EXPECT_THROW(refuse_foreign("/no/such/file"), IoError);
 }
 
-}  // namespace
+}  // namespace zlg::logs::file_nature_test

@@ -4,8 +4,7 @@
 #include "line_gyro.hpp"
 #include "temporary_folder.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::follower_test {
 
 class Followed : public testing::Test {
 protected:
@@ -77,5 +76,4 @@ TEST(LineSettings, NameEveryFlag) {
         EXPECT_NE(settings[0].second.find(each), std::string::npos) << each;
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::follower_test

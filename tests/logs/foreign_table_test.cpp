@@ -4,8 +4,7 @@
 #include "temporary_folder.hpp"
 #include "text_table/dates.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::foreign_table_test {
 
 ForeignTable table_of(const std::string& text) {
     static const test::TemporaryFolder folder;  // the table reads the file again
@@ -56,5 +55,4 @@ TEST(Units, are_known_by_many_spellings) {
         EXPECT_FALSE(unit_in_name(none)) << none;
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::foreign_table_test

@@ -9,8 +9,7 @@
 #include "raw_rows.hpp"
 #include "temporary_folder.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::format_version_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -88,5 +87,4 @@ TEST(FormatVersion, of_a_number_is_1_to_3) {
                               "log: format_version");
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::format_version_test

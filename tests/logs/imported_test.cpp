@@ -2,8 +2,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::imported_test {
 
 ForeignLook look_of(const std::string& text, std::initializer_list<const char*> said) {
     static const test::TemporaryFolder folder;  // the table reads the file again
@@ -56,5 +55,4 @@ TEST(ImportedAxes, what_is_missing_is_said_together) {
     for (const char* key : {"unit=", "holds=", "time_unit=s (then 10 Hz)"}) test::expect_contains(said, key);
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::imported_test

@@ -4,8 +4,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::line_reader_test {
 
 std::vector<std::string> lines_of(const std::string& text) {
     static const test::TemporaryFolder folder;
@@ -47,5 +46,4 @@ TEST(LineReader, many_short_lines_are_linear_with_any_end) {
     EXPECT_EQ(lines_of(std::string(3'000'000, '\r')).size(), 3'000'000u);
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::line_reader_test

@@ -8,8 +8,7 @@
 #include "raw_rows.hpp"
 #include "temporary_folder.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::logged_fingerprint_test {
 
 using test::message_of;
 using test::TemporaryFolder;
@@ -189,5 +188,4 @@ TEST(LoggedFingerprintHdf5, of_another_form_is_refused) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::logged_fingerprint_test

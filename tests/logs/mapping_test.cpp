@@ -2,8 +2,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::mapping_test {
 
 std::string refusal(const std::string& pair) {
     Mapping mapping;
@@ -38,5 +37,4 @@ TEST(Mapping, what_is_written_as_toml_reads_back) {
     EXPECT_FALSE(back.has("holds"));
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::mapping_test

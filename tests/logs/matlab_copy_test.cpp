@@ -4,8 +4,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::matlab_copy_test {
 
 // As it is read again.
 std::vector<double> column(const std::string& path, const std::string& name) {
@@ -69,5 +68,4 @@ TEST(MatlabCopy, IsNotThereUntilItIsClosed) {
     EXPECT_THROW((MatlabCopy<RawTable>{path, {}, false}), IoError);
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::matlab_copy_test

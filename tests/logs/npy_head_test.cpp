@@ -1,8 +1,7 @@
 #include "foreign/npy_head.hpp"
 #include "test.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::npy_head_test {
 
 using Shape = std::vector<std::size_t>;
 
@@ -46,5 +45,4 @@ TEST(NpyHead, sixty_thousand_blanks_are_only_long) {
     EXPECT_FALSE(npy_head("{'descr':" + blanks));
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::npy_head_test

@@ -2,9 +2,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::logs::row_rules_test {
 
-using namespace zlg::logs;
 using zlg::core::HalfRecord;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -89,4 +88,4 @@ TEST(RawSequence, a_span_goes_over_missed_rows_alone) {
     EXPECT_FALSE(rows.next(row)) << "none is missed since";
 }
 
-}  // namespace
+}  // namespace zlg::logs::row_rules_test

@@ -4,9 +4,7 @@
 #include "test.hpp"
 #include "text_table/time_names.hpp"
 
-namespace {
-
-using namespace zlg::logs;
+namespace zlg::logs::row_times_test {
 
 std::vector<double> stamps(std::size_t n, double step) {
     std::vector<double> values;
@@ -110,4 +108,4 @@ TEST(RowTimes, what_does_not_rise_is_no_column_of_times_unless_it_is_asked_for_a
     EXPECT_THROW((void)row_times(named("", {3.0, 1.0, 2.0}), "a.csv", true), FormatError);
 }
 
-}  // namespace
+}  // namespace zlg::logs::row_times_test

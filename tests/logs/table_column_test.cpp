@@ -5,9 +5,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::logs;
+namespace zlg::logs::table_column_test {
 
 template <class T>
 using Values = std::vector<T>;
@@ -68,4 +66,4 @@ TEST(TableColumn, parts_stand_beside_their_columns) {
     EXPECT_EQ(std::get<6>(values).size(), 6u);
 }
 
-}  // namespace
+}  // namespace zlg::logs::table_column_test

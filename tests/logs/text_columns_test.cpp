@@ -6,9 +6,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace {
-
-using namespace zlg::logs;
+namespace zlg::logs::text_columns_test {
 
 class TextColumns : public ::testing::Test {
 protected:
@@ -348,4 +346,4 @@ TEST(EndOfText, a_file_ends_with_a_line_where_its_last_byte_is_a_line_feed) {
     EXPECT_TRUE(ends_with_a_line("/dev/zero")) << "nothing is read of what never ends";
 }
 
-}  // namespace
+}  // namespace zlg::logs::text_columns_test

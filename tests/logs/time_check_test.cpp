@@ -2,9 +2,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::logs;
+namespace zlg::logs::time_check_test {
 
 TextTable table_of(std::vector<std::string> names, std::int64_t n_columns, std::vector<double> first) {
     TextTable table;
@@ -47,4 +45,4 @@ TEST(TimeCheck, a_contradiction_and_a_presumption_name_the_key) {
     EXPECT_FALSE(check_times(table_of({}, 1, {5.0, 3.0, 4.0}), "a.csv", layout, 50.0).times);
 }
 
-}  // namespace
+}  // namespace zlg::logs::time_check_test

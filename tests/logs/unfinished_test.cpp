@@ -7,8 +7,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::unfinished_test {
 
 namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
@@ -150,5 +149,4 @@ TEST(Unfinished, WhatWasCompletedOrGivenUpIsNoPartAnyMore) {
     EXPECT_TRUE(fs::exists(path("b.csv")));
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::unfinished_test

@@ -3,8 +3,7 @@
 
 #include "line_gyro.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::wire_order_test {
 
 std::vector<Bytes> ticks_of(Gyro& gyro, int n) {
     std::vector<Bytes> frames;
@@ -281,5 +280,4 @@ TEST(WireOrder, WhateverComesAgainEachTickIsInTheLogOnce) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::wire_order_test

@@ -2,8 +2,7 @@
 
 #include "line_gyro.hpp"
 
-namespace zlg::logs {
-namespace {
+namespace zlg::logs::wire_rows_test {
 
 TEST(WireRows, OfAGoodLineAreTheRowsOfTheGyro) {
     Gyro gyro;
@@ -326,5 +325,4 @@ TEST(WireRows, OfALineThatLosesATenthOfItsBytesWhatIsNotFlaggedIsRight) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::logs
+}  // namespace zlg::logs::wire_rows_test

@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::noise;
+namespace zlg::noise::imu_yaml_test {
 
 class ImuYaml : public ::testing::Test {
 protected:
@@ -74,4 +72,4 @@ TEST_F(ImuYaml, what_is_wrong_is_named) {
     EXPECT_THROW((void)read_imu_yaml("/no/such/file.yaml"), zlg::logs::IoError);
 }
 
-}  // namespace
+}  // namespace zlg::noise::imu_yaml_test

@@ -3,10 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::noise;
+namespace zlg::noise::mode_split_test {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
@@ -112,4 +109,4 @@ TEST(ModeSplit, refuses_records_of_different_length) {
                  deviations::SeriesError);
 }
 
-}  // namespace
+}  // namespace zlg::noise::mode_split_test

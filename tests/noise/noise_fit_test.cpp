@@ -4,10 +4,7 @@
 #include "ramp.hpp"
 #include "simulated_noise.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::noise;
+namespace zlg::noise::noise_fit_test {
 
 const FittedTerm& term(const NoiseFit& fit, NoiseKind kind) {
     for (const FittedTerm& t : fit.fitted)
@@ -171,4 +168,4 @@ TEST(NoiseFit, a_ramp_that_nothing_can_be_weighed_against_is_refused) {
     EXPECT_THROW((void)find_ramp(std::vector<double>(640, 0.0), 1.0, {}), deviations::SeriesError);
 }
 
-}  // namespace
+}  // namespace zlg::noise::noise_fit_test

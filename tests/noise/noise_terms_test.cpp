@@ -2,9 +2,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::noise::noise_terms_test {
 
-using namespace zlg::noise;
 using std::numbers::pi;
 
 // Integral over all frequencies of the spectrum through the filter that differences of order n at tau are.
@@ -72,4 +71,4 @@ TEST(NoiseTerms, quantised_angles_have_the_spectrum_of_their_differences) {
     EXPECT_NEAR(sum, 2.0 * 9.0 * 100.0, 1e-6 * sum);
 }
 
-}  // namespace
+}  // namespace zlg::noise::noise_terms_test

@@ -3,10 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::noise;
+namespace zlg::noise::noise_units_test {
 
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
 
@@ -53,4 +50,4 @@ TEST(NoiseUnits, kalibr_counts_in_radians) {
     EXPECT_NEAR(terms_of(gyro).rate_random_walk_arcsec_s_sqrt_s, 7200.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace zlg::noise::noise_units_test

@@ -3,10 +3,7 @@
 
 #include "simulated_noise.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::noise;
+namespace zlg::noise::spectrum_test {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
@@ -66,4 +63,4 @@ TEST(Spectrum, refuses_what_has_none) {
     EXPECT_THROW((void)welch_spectrum(std::vector<double>(100, 1.0), 0.0, 16), deviations::SeriesError);
 }
 
-}  // namespace
+}  // namespace zlg::noise::spectrum_test

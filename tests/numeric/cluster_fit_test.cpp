@@ -2,9 +2,7 @@
 
 #include "test.hpp"
 
-using namespace zlg::numeric;
-
-namespace {
+namespace zlg::numeric::cluster_fit_test {
 
 Cluster cluster_of(const std::vector<Eigen::Vector2d>& x, const std::vector<double>& y) {
     Cluster c{Eigen::MatrixXd::Zero(2, 2), Eigen::VectorXd::Zero(2)};
@@ -48,4 +46,4 @@ TEST(ClusterFit, laws_that_are_alike_share_what_there_is_and_one_of_zeros_has_no
     EXPECT_EQ(fit.covariance(1, 1), 0.0);
 }
 
-}  // namespace
+}  // namespace zlg::numeric::cluster_fit_test

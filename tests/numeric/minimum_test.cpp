@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::numeric {
-namespace {
+namespace zlg::numeric::minimum_test {
 
 TEST(ScannedMinimum, parabola_between_two_points_of_the_scan) {
     const Minimum m = scanned_minimum([](double x) { return 3.0 + (x - 0.1234) * (x - 0.1234); }, -1.0, 1.0, 10);
@@ -27,5 +26,4 @@ TEST(ScannedMinimum, passes_over_what_is_not_a_number) {
     EXPECT_NEAR(scanned_minimum(f, -1.0, 1.0, 20).at, 0.52, 1e-5);
 }
 
-}  // namespace
-}  // namespace zlg::numeric
+}  // namespace zlg::numeric::minimum_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::numeric {
-namespace {
+namespace zlg::numeric::parallel_test {
 
 TEST(InParallel, does_every_piece_once) {
     for (const int threads : {1, 2, 7, 200}) {
@@ -43,5 +42,4 @@ TEST(InParallel, throws_the_failure_of_the_lowest_index_on_any_number_of_threads
     }
 }
 
-}  // namespace
-}  // namespace zlg::numeric
+}  // namespace zlg::numeric::parallel_test

@@ -3,9 +3,8 @@
 #include "paper_parts.hpp"
 #include "test.hpp"
 
-namespace {
+namespace zlg::paper_claims_test {
 
-using namespace zlg;
 using paper::Claim;
 using paper::Verdict;
 
@@ -158,4 +157,4 @@ TEST(PaperClaims, gain_of_the_regime) {
     zlg::test::expect_contains(text, fmt::format("{:.0f} times in ten hours", gain(36000.0, 0.0841)));
 }
 
-}  // namespace
+}  // namespace zlg::paper_claims_test

@@ -3,10 +3,8 @@
 #include "paper_parts.hpp"
 #include "read_section.hpp"
 
-namespace {
+namespace zlg::test::paper_drift_test {
 
-using namespace zlg;
-using namespace zlg::test;
 using paper::paper_figure_3;
 using paper::paper_figure_4;
 using paper::paper_figure_5;
@@ -239,4 +237,4 @@ TEST(PaperFigure5, a_gyro_without_magnetic_drift_has_no_best_interval) {
         EXPECT_TRUE(std::none_of(s.y.begin(), s.y.end(), [](double y) { return std::isfinite(y); })) << s.name;
 }
 
-}  // namespace
+}  // namespace zlg::test::paper_drift_test

@@ -1,10 +1,8 @@
 #include "paper_parts.hpp"
 #include "read_section.hpp"
 
-namespace {
+namespace zlg::test::paper_tables_test {
 
-using namespace zlg;
-using namespace zlg::test;
 using paper::paper_table_1;
 using paper::paper_table_2;
 
@@ -77,4 +75,4 @@ TEST(PaperTables, the_figure_shows_measured_fitted_and_twin) {
         for (const double y : s.y) EXPECT_TRUE(std::isfinite(y)) << s.name;
 }
 
-}  // namespace
+}  // namespace zlg::test::paper_tables_test

@@ -4,9 +4,7 @@
 #include "paper_parts.hpp"
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::paper_test {
 
 paper::PaperTask small_task(int threads = 2) {
     paper::PaperTask task;
@@ -217,4 +215,4 @@ TEST(VerdictCounts, add_up_to_the_claims) {
     EXPECT_EQ(paper::verdict_counts({}), "agrees 0, misprint 0, wrong 0, not supported 0");
 }
 
-}  // namespace
+}  // namespace zlg::paper_test

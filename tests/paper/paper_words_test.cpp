@@ -1,9 +1,7 @@
 #include "paper_words.hpp"
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::paper;
+namespace zlg::paper::paper_words_test {
 
 TEST(PaperWords, numbers_stand_in_their_places_as_the_page_shows_them) {
     EXPECT_EQ(filled("{} is {:.2f}, {}", {12.3456, 0.125, "so"}), "12.3 is 0.12, so");
@@ -22,4 +20,4 @@ TEST(PaperWords, a_claim_has_the_finding_of_its_own_place) {
     EXPECT_THROW((void)claims_of(found), std::logic_error) << "there are more claims";
 }
 
-}  // namespace
+}  // namespace zlg::paper::paper_words_test

@@ -6,9 +6,8 @@
 #include "random_phase_motion.hpp"
 #include "test.hpp"
 
-namespace {
+namespace zlg::substitution_experiment_test {
 
-using namespace zlg;
 using paper::SubstitutionExperiment;
 using paper::SubstitutionPoint;
 using paper::SubstitutionResult;
@@ -328,4 +327,4 @@ TEST(RootMeanSquare, knows_its_own_spread) {
     EXPECT_DOUBLE_EQ(uneven.error, std::sqrt(0.5));
 }
 
-}  // namespace
+}  // namespace zlg::substitution_experiment_test

@@ -15,9 +15,8 @@
 #include "built_image.hpp"
 #include "temporary_folder.hpp"
 
-namespace {
+namespace zlg::qemu_line_test {
 
-using namespace zlg;
 using processor::QemuProcessor;
 namespace fs = std::filesystem;
 
@@ -201,4 +200,4 @@ TEST(QemuLine, switching_stops_is_forced_and_starts_again) {
     EXPECT_GE(gyro.switches_after({.code = wire::CommandCode::start_switching}, 5 * second), 4) << "one a second";
 }
 
-}  // namespace
+}  // namespace zlg::qemu_line_test

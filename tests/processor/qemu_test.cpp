@@ -13,9 +13,8 @@
 
 #include "built_image.hpp"
 
-namespace {
+namespace zlg::qemu_test {
 
-using namespace zlg;
 using processor::QemuError;
 using processor::QemuProcessor;
 namespace fs = std::filesystem;
@@ -204,4 +203,4 @@ TEST(QemuProcessor, whoever_waits_sleeps) {
     host.join();
 }
 
-}  // namespace
+}  // namespace zlg::qemu_test

@@ -5,9 +5,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::log_compensation_test {
 
-using namespace zlg;
 using core::RelockMethod;
 
 logs::RawHeader log_with_all() {
@@ -159,4 +158,4 @@ TEST(LogCompensation, a_log_without_a_whole_tick_is_refused) {
     EXPECT_NO_THROW(recorded::require_a_tick(replay, "log"));
 }
 
-}  // namespace
+}  // namespace zlg::log_compensation_test

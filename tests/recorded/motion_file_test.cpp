@@ -4,8 +4,7 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
 
-namespace zlg::recorded {
-namespace {
+namespace zlg::recorded::motion_file_test {
 
 // A text file that lives as long as the test.
 class TextFile {
@@ -160,5 +159,4 @@ TEST(MotionFile, ARealLogLoadsAndShowsTheEarth) {
     EXPECT_NEAR(std::sqrt(sum_sq), 14.86, 0.01);
 }
 
-}  // namespace
-}  // namespace zlg::recorded
+}  // namespace zlg::recorded::motion_file_test

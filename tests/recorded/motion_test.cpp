@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::motion_test {
 
 TEST(RecordedMotion, a_file_turns_the_gyro_by_its_rows) {
     const std::string path = (std::filesystem::path{testing::TempDir()} / "zlg_recorded_motion.txt").string();
@@ -29,4 +27,4 @@ TEST(RecordedMotion, other_kinds_are_those_of_the_rig) {
     EXPECT_NEAR(recorded::motion(c).increment_arcsec(1.0, 3.0), 60.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace zlg::motion_test

@@ -4,8 +4,7 @@
 
 #include "test.hpp"
 
-namespace zlg::recorded {
-namespace {
+namespace zlg::recorded::text_layout_test {
 
 TEST(TextLayout, EachWordOfTheKeysIsTheOneOfTheReader) {
     using enum logs::TextSeparator;
@@ -30,5 +29,4 @@ TEST(TextLayout, EachWordOfTheKeysIsTheOneOfTheReader) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::recorded
+}  // namespace zlg::recorded::text_layout_test

@@ -2,9 +2,7 @@
 
 #include "example_figures.hpp"
 
-namespace {
-
-using namespace zlg::report;
+namespace zlg::report::number_text_test {
 
 using example::infinity;
 
@@ -53,4 +51,4 @@ TEST(NumberText, a_blank_figure_has_its_words_and_no_curve) {
     EXPECT_TRUE(figure.series.empty());
 }
 
-}  // namespace
+}  // namespace zlg::report::number_text_test

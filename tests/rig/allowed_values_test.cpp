@@ -16,9 +16,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::allowed_values_test {
 
-using namespace zlg;
 using Settings = config::Settings;
 
 // The numbers that are allowed, as a reader of the words understands them.
@@ -197,4 +196,4 @@ INSTANTIATE_TEST_SUITE_P(Gyros, AllowedValues, testing::Range<std::size_t>(0, gy
     return name;
 });
 
-}  // namespace
+}  // namespace zlg::allowed_values_test

@@ -4,9 +4,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::asked_compensation_test {
 
-using namespace zlg;
 using core::RelockMethod;
 
 config::Config of(RelockMethod method) {
@@ -50,4 +49,4 @@ TEST(AskedCompensation, an_angle_log_names_what_its_angles_rest_on) {
     EXPECT_EQ(value_of("compensation.relock"), "\"none\"");
 }
 
-}  // namespace
+}  // namespace zlg::asked_compensation_test

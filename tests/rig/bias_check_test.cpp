@@ -2,9 +2,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::bias_check_test {
 
 constexpr core::CompensationConstants paper{};  // 60 kHz, 5 ms: 150 counts in a half
 
@@ -116,4 +114,4 @@ TEST(BiasCheck, a_gyro_that_turns_faster_than_its_bias_is_right) {
     EXPECT_EQ(complaint({.rotation = [](int) { return 400.0; }}), "");
 }
 
-}  // namespace
+}  // namespace zlg::bias_check_test

@@ -5,9 +5,7 @@
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
-namespace {
-
-using namespace zlg;
+namespace zlg::bias_wiring_test {
 
 TEST(BiasWiring, TheCounterFollowsTheBiasAndFourHundredDegreesASecond) {
     // 60 kHz/(1 - 0.01) + 1 440 000/3.263 Hz.
@@ -20,4 +18,4 @@ TEST(BiasWiring, TheCounterFollowsTheBiasAndFourHundredDegreesASecond) {
     EXPECT_EQ(loop.sensor().counter, 250u);
 }
 
-}  // namespace
+}  // namespace zlg::bias_wiring_test

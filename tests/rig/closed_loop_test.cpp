@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::closed_loop_test {
 
 config::Config every_second() {
     config::Config c;
@@ -120,4 +118,4 @@ TEST(ClosedLoop, a_half_last_segment_gives_both_modes_the_same_time) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::closed_loop_test

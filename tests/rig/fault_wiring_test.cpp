@@ -5,9 +5,7 @@
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wiring.hpp>
 
-namespace {
-
-using namespace zlg;
+namespace zlg::fault_wiring_test {
 
 std::string complaint(const config::Config& c) {
     return test::refusal_by<config::ConfigError>([&] { rig::ClosedLoop loop{c, rig::motion(c)}; });
@@ -63,4 +61,4 @@ TEST(FaultWiring, WhatCannotBeIsTold) {
         complaint(test::config_with({"perimeter.loop=exponential", "faults.random_per_hour=100"})), "exponential loop");
 }
 
-}  // namespace
+}  // namespace zlg::fault_wiring_test

@@ -6,9 +6,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::filled_by_code_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -64,4 +62,4 @@ TEST(FilledByCode, AFaultOutOfItsRangeIsRefusedByItsKey) {
     EXPECT_THROW((void)rig::ClosedLoop(c, twin::Motion::rest()), config::ConfigError);
 }
 
-}  // namespace
+}  // namespace zlg::filled_by_code_test

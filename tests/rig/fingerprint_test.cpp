@@ -3,8 +3,7 @@
 
 #include "test.hpp"
 
-namespace zlg::rig {
-namespace {
+namespace zlg::rig::fingerprint_test {
 
 struct Taken {
     LoopHalf half;
@@ -140,5 +139,4 @@ TEST(Fingerprint, rows_may_come_before_or_after_their_halves) {
     EXPECT_NE(of(half(first), row(first), row(second)), in_turn);
 }
 
-}  // namespace
-}  // namespace zlg::rig
+}  // namespace zlg::rig::fingerprint_test

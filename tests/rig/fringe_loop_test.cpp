@@ -9,9 +9,7 @@
 #include "fringe_wiring.hpp"
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::fringe_loop_test {
 
 config::Config by_phase(std::initializer_list<std::string_view> settings = {}) {
     config::Config c;
@@ -180,4 +178,4 @@ TEST(FringeLoop, AMissingPlaceBesideAGapCostsNoMoreThanWholeCounts) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::fringe_loop_test

@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::laser_agreement_test {
 
 config::Config laser(std::initializer_list<const char*> settings) {
     config::Config c;
@@ -171,4 +169,4 @@ TEST(LaserAgreement, the_linear_light_of_an_averaged_gyro_contradicts_the_curve_
     EXPECT_EQ(config::to_toml(rig::agreed_with_laser({}).config), config::to_toml({}));
 }
 
-}  // namespace
+}  // namespace zlg::laser_agreement_test

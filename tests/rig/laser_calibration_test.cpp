@@ -7,9 +7,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::laser_calibration_test {
 
 TEST(LaserCalibration, tells_the_processor_the_published_figures_of_the_default_gyro) {
     const config::Config c = rig::calibrated_by_laser({});
@@ -95,4 +93,4 @@ TEST(LaserCalibration, refuses_a_laser_without_light) {
     EXPECT_THROW((void)rig::calibrated_by_laser(c), config::ConfigError);
 }
 
-}  // namespace
+}  // namespace zlg::laser_calibration_test

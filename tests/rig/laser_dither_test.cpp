@@ -8,9 +8,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::laser_dither_test {
 
 constexpr double fringe_arcsec = 3.263;
 
@@ -100,4 +98,4 @@ TEST(LockInLoop, a_calibrated_threshold_takes_the_scale_error_away_in_the_whole_
     }
 }
 
-}  // namespace
+}  // namespace zlg::laser_dither_test

@@ -7,9 +7,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::laser_loop_test {
 
 config::Config laser_gyro() {
     config::Config c;
@@ -107,4 +105,4 @@ TEST(LaserLoop, no_laser_is_lost_for_good_by_the_miss) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::laser_loop_test

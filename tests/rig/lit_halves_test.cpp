@@ -7,9 +7,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::lit_halves_test {
 
 config::Config gyro(config::Fidelity fidelity) {
     config::Config c;
@@ -152,4 +150,4 @@ TEST(LitHalves, NarrowTheErrorOfASwitchOverVibration) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::lit_halves_test

@@ -2,9 +2,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::measured_half_wave_test {
 
 core::SwitchEvent measured(double half_wave_v) { return {.has_half_wave = true, .half_wave_v = half_wave_v}; }
 const core::SwitchEvent nothing{};
@@ -63,4 +61,4 @@ TEST(MeasuredHalfWave, without_measurements_the_sigma_grows_to_that_of_the_presu
     EXPECT_EQ(f.estimate_v, before.estimate_v);
 }
 
-}  // namespace
+}  // namespace zlg::measured_half_wave_test

@@ -7,9 +7,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::piezo_learning_test {
 
 config::Config gyro_of(config::Fidelity fidelity) {
     config::Config c;
@@ -187,4 +185,4 @@ TEST(PiezoLearning, APiezoThatCreepsIsMeasuredSoonAfterTheSwitch) {
     EXPECT_LT(rig::control_config(real_piezo(300.0)).mode_switch.settle_ticks, ideal.mode_switch.settle_ticks);
 }
 
-}  // namespace
+}  // namespace zlg::piezo_learning_test

@@ -2,9 +2,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::place_check_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -148,4 +146,4 @@ TEST(PlaceCheck, differences_reach_over_measured_halves_alone) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::place_check_test

@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::refusal_test {
 
 config::Config warm() {
     config::Config config;
@@ -39,4 +37,4 @@ TEST(Refusal, a_rate_that_cannot_be_counted_names_what_makes_the_gyro) {
               "gyro.temperature_rise_c = 5, a rate beyond any counter: it overflows");
 }
 
-}  // namespace
+}  // namespace zlg::refusal_test

@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::replay_test {
 
 constexpr std::int64_t gap_tick = 60;
 constexpr std::int64_t gap_ticks = 3;
@@ -138,4 +136,4 @@ TEST(Replay, a_half_without_the_other_one_is_named) {
     zlg::test::expect_contains(replay.odd_half("log"), "log: the last half-period (2)");
 }
 
-}  // namespace
+}  // namespace zlg::replay_test

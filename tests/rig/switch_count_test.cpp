@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::switch_count_test {
 
 config::Config every_second() {
     config::Config c;
@@ -77,4 +75,4 @@ TEST(SwitchCount, a_gyro_whose_light_goes_out_in_a_switch_has_failed_by_the_time
     EXPECT_TRUE(counted(c, 400).none_succeeded());
 }
 
-}  // namespace
+}  // namespace zlg::switch_count_test

@@ -7,8 +7,7 @@
 
 #include "test.hpp"
 
-namespace zlg::rig {
-namespace {
+namespace zlg::rig::wire_stream_test {
 
 config::Config gyro() {
     config::Config c;
@@ -111,5 +110,4 @@ TEST(WireStream, ATickMayHaveOnTheLineTheLengthsOfTheConfiguration) {
     EXPECT_THROW(set(1.001 * wire::max_tick_s), config::ConfigError);
 }
 
-}  // namespace
-}  // namespace zlg::rig
+}  // namespace zlg::rig::wire_stream_test

@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::wiring_test {
 
 TEST(Wiring, twin_and_compensation_share_the_gyro) {
     config::Config c;
@@ -223,4 +221,4 @@ TEST(Wiring, light_samples_of_joint_are_read_through_the_discriminator_of_the_co
     EXPECT_EQ(made.gyro.record_curve.n_nodes, 0) << "the control has been through the curve";
 }
 
-}  // namespace
+}  // namespace zlg::wiring_test

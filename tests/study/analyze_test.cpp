@@ -6,9 +6,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::analyze_test {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
@@ -316,4 +314,4 @@ TEST(Analyze, rates_are_shown_in_the_unit_asked_for) {
     EXPECT_EQ(study::shown_unit(config::ShownRate::rad_s), "rad/s");
 }
 
-}  // namespace
+}  // namespace zlg::analyze_test

@@ -8,9 +8,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::calibrate_test {
 
 config::Config bench(std::uint64_t seed) {
     config::Config c;
@@ -137,4 +135,4 @@ TEST(Calibrate, refuses_a_log_without_a_tick_or_whose_facts_nobody_says) {
     EXPECT_NE(refusal(lab.task()).find("configuration: a: "), std::string::npos);
 }
 
-}  // namespace
+}  // namespace zlg::calibrate_test

@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::compensated_run_test {
 
 TEST(CompensatedRun, has_the_errors_of_the_configured_variant_of_a_run) {
     config::Config c;
@@ -38,4 +36,4 @@ TEST(CompensatedRun, a_large_magnetic_drift_is_no_error_of_the_switches) {
     EXPECT_NEAR(mean_of_modes(14.0), mean_of_modes(0.0), 0.6);
 }
 
-}  // namespace
+}  // namespace zlg::compensated_run_test

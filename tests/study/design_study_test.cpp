@@ -5,9 +5,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::design_study_test {
 
-using namespace zlg;
 using design::IntervalMethod;
 
 const study::IntervalLine& line(const study::DesignResult& r, double run_s, IntervalMethod method) {
@@ -190,4 +189,4 @@ TEST(DesignPage, has_a_section_for_each_question) {
     EXPECT_EQ(page.sections[0].figures.at(0).series.size(), 5u) << "four runs and their optima";
 }
 
-}  // namespace
+}  // namespace zlg::design_study_test

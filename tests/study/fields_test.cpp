@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::fields_test {
 
 template <class Result>
 std::vector<std::string> names() {
@@ -46,4 +44,4 @@ TEST(Fields, may_be_lists) {
     EXPECT_EQ(found, discrete.markov_factor);
 }
 
-}  // namespace
+}  // namespace zlg::fields_test

@@ -9,9 +9,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::gap_sigma_test {
 
 struct Case {
     std::vector<double> amplitude_arcsec_s, frequency_hz;
@@ -114,4 +112,4 @@ TEST(GapSigma, of_a_polynomial_holds_the_re_lock_behind_the_gap) {
     EXPECT_LT(sum / n, 1.1 * 1.1);
 }
 
-}  // namespace
+}  // namespace zlg::gap_sigma_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::study {
-namespace {
+namespace zlg::study::gyro_drift_test {
 
 TEST(GyroDrift, HasEachConstantOfTheConfigurationInItsPlace) {
     config::Config config;
@@ -18,5 +17,4 @@ TEST(GyroDrift, HasEachConstantOfTheConfigurationInItsPlace) {
     EXPECT_EQ(drift.thermal_time_s, 4.0);
 }
 
-}  // namespace
-}  // namespace zlg::study
+}  // namespace zlg::study::gyro_drift_test

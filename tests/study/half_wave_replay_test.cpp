@@ -6,9 +6,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::half_wave_replay_test {
 
 config::Config gyro(std::initializer_list<std::string_view> settings = {}) {
     config::Config c;
@@ -124,4 +122,4 @@ TEST(HalfWaveReplay, a_configuration_that_the_control_refuses_gives_nothing) {
     for (const study::SwitchLine& line : filled(c, run)) EXPECT_TRUE(std::isnan(line.half_wave_v));
 }
 
-}  // namespace
+}  // namespace zlg::half_wave_replay_test

@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::how_made_test {
 
 TEST(HowMade, defaults_need_no_lines) {
     EXPECT_EQ(study::own_settings({}), "");
@@ -31,4 +29,4 @@ TEST(HowMade, names_what_was_read) {
     EXPECT_EQ(text.find("seed"), std::string::npos) << "nothing was simulated";
 }
 
-}  // namespace
+}  // namespace zlg::how_made_test

@@ -10,9 +10,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::laser_behaviour_test {
 
 config::Config laser_gyro() {
     config::Config c;
@@ -248,4 +246,4 @@ TEST(LaserBehaviour, a_gyro_at_rest_tells_no_curve) {
     EXPECT_NE(found.curve.reason.find("rounds alike"), std::string::npos) << found.curve.reason;
 }
 
-}  // namespace
+}  // namespace zlg::laser_behaviour_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::study {
-namespace {
+namespace zlg::study::reading_error_test {
 
 config::Config gyro(config::Readout readout) {
     config::Config config;
@@ -42,5 +41,4 @@ TEST(ReadingError, OfALaserIsNotKnownAndStaysAsTheTwinSays) {
     EXPECT_EQ(reading_error_arcsec(config, half(0.0, 100.0f)), 0.0);
 }
 
-}  // namespace
-}  // namespace zlg::study
+}  // namespace zlg::study::reading_error_test

@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::resolved_test {
 
 TEST(Resolved, leaves_alone_what_leaves_nothing_open) {
     const study::Resolved made = study::resolved({});
@@ -74,4 +72,4 @@ TEST(Resolved, takes_the_constants_of_a_laser) {
     EXPECT_EQ(made.notes.size(), 1u);
 }
 
-}  // namespace
+}  // namespace zlg::resolved_test

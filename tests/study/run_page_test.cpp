@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::run_page_test {
 
 study::RunResult run_of(double duration_s) {
     study::RunTask task;
@@ -78,4 +76,4 @@ TEST(RunPage, says_how_it_was_made) {
     EXPECT_EQ(page.sections.back().code, "run.duration_s = 2\nrun.seed = 7\n");
 }
 
-}  // namespace
+}  // namespace zlg::run_page_test

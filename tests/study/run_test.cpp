@@ -5,9 +5,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::run_test {
 
 config::Config short_run() {
     config::Config c;
@@ -161,4 +159,4 @@ TEST(Run, a_sink_that_fails_ends_the_run) {
     EXPECT_THROW((void)study::run(task), logs::IoError);
 }
 
-}  // namespace
+}  // namespace zlg::run_test

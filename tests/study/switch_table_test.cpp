@@ -3,9 +3,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::switch_table_test {
 
-using namespace zlg;
 using study::SwitchLine;
 using study::SwitchTable;
 
@@ -61,4 +60,4 @@ TEST(SwitchTable, a_detuning_that_was_not_read_is_no_miss) {
 
 TEST(SwitchTable, a_gap_in_one_mode_is_no_switch) { EXPECT_TRUE(lines(20, 1, 0.2).empty()); }
 
-}  // namespace
+}  // namespace zlg::switch_table_test

@@ -5,9 +5,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::switch_trial_test {
 
 config::Config at_rest() {
     config::Config c;
@@ -85,4 +83,4 @@ TEST(SwitchTrial, no_switch_begins_before_the_last_is_over) {
     EXPECT_NEAR(study::shortest_interval_s(c), (3 + 30 + 40) * 0.005, 1e-12);
 }
 
-}  // namespace
+}  // namespace zlg::switch_trial_test

@@ -3,9 +3,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::term_text_test {
 
-using namespace zlg;
 using noise::NoiseKind;
 
 TEST(TermText, a_value_has_the_digits_that_its_error_allows) {
@@ -38,4 +37,4 @@ TEST(TermText, an_estimate_has_its_error_or_says_why_there_is_none) {
     EXPECT_EQ(study::value_text(numeric::refused("one mode"), "deg/h"), "not determined: one mode");
 }
 
-}  // namespace
+}  // namespace zlg::term_text_test

@@ -8,9 +8,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::unequal_light_test {
 
 config::Config gyro_with(const std::vector<std::string>& settings) {
     config::Config c;
@@ -137,4 +135,4 @@ TEST(UnequalLight, AGainThatIsNoneIsRefused) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::unequal_light_test

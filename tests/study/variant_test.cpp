@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::study;
+namespace zlg::study::variant_test {
 
 const zlg::design::GyroDrift no_drift{0.0, 0.0, 0.0, 3000.0};
 
@@ -84,4 +82,4 @@ TEST(ErrorMeter, drops_a_switch_whose_window_is_not_over) {
     EXPECT_TRUE(meter.switches().empty());
 }
 
-}  // namespace
+}  // namespace zlg::study::variant_test

@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::what_happened_test {
 
 config::Config short_gyro(double duration_s, double interval_s) {
     config::Config config;
@@ -86,4 +84,4 @@ TEST(RandomWalkShare, is_what_the_least_squares_make_of_a_walk) {
     EXPECT_EQ(study::random_walk_share(config, result).drift_arcsec_s, 0.0);
 }
 
-}  // namespace
+}  // namespace zlg::what_happened_test

@@ -6,10 +6,7 @@
 #include "descriptions.hpp"
 #include "temporary_folder.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::sweep;
+namespace zlg::sweep::checkpoint_test {
 
 const Row good{.gyro = 3, .fingerprint = "0123456789abcdef", .metrics = {0.1 + 0.2}};
 const Row bad{.gyro = 0, .status = Status::refused, .reason = "no | gyro, \"really\"", .metrics = {std::nan("")}};
@@ -89,4 +86,4 @@ TEST(Checkpoint, removed_is_gone) {
     EXPECT_FALSE(std::filesystem::exists(folder.file("r.part")));
 }
 
-}  // namespace
+}  // namespace zlg::sweep::checkpoint_test

@@ -4,10 +4,7 @@
 
 #include "descriptions.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::sweep;
+namespace zlg::sweep::description_test {
 
 std::string refusal(const std::string& toml) {
     return test::refusal_by<config::ConfigError>([&] { (void)parse(toml, "s.toml"); });
@@ -179,4 +176,4 @@ TEST(Description, a_grid_and_a_latin_hypercube_do_not_grow) {
     EXPECT_EQ(difference(of("4"), of("5")), "has `gyros = 4`, this one `gyros = 5`");
 }
 
-}  // namespace
+}  // namespace zlg::sweep::description_test

@@ -4,9 +4,7 @@
 
 #include "descriptions.hpp"
 
-namespace {
-
-using namespace zlg::sweep;
+namespace zlg::sweep::draws_test {
 
 Description sweep_of(std::int64_t n_gyros, std::vector<Parameter> parameters, std::uint64_t seed = 1) {
     Description d;
@@ -156,4 +154,4 @@ TEST(Draws, a_list_is_taken_in_turn) {
     EXPECT_EQ(column(sweep_of(5, {p}), 0), (std::vector<double>{3.0, 1.0, 3.0, 1.0, 3.0}));
 }
 
-}  // namespace
+}  // namespace zlg::sweep::draws_test

@@ -5,10 +5,7 @@
 
 #include "descriptions.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::sweep;
+namespace zlg::sweep::gyros_test {
 
 Description with(const std::string& parameter, const std::string& duration_s = "5") {
     return parse("[sweep]\ngyros = 2\nduration_s = " + duration_s + "\n[base.switching]\ninterval_s = 2\n" + parameter +
@@ -105,4 +102,4 @@ TEST(Gyros, rows_are_equal_bit_for_bit_or_not) {
     EXPECT_FALSE(are_equal(row, other));
 }
 
-}  // namespace
+}  // namespace zlg::sweep::gyros_test

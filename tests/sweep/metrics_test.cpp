@@ -4,10 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::sweep;
+namespace zlg::sweep::metrics_test {
 
 TEST(Metrics, every_name_gives_a_number_of_a_run) {
     study::RunTask task;
@@ -45,4 +42,4 @@ TEST(Metrics, have_units_and_neighbours) {
     EXPECT_EQ(nearest_metric("configurd.drift_arcsec_s"), "configured.drift_arcsec_s");
 }
 
-}  // namespace
+}  // namespace zlg::sweep::metrics_test

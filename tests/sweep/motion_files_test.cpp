@@ -8,10 +8,7 @@
 #include "descriptions.hpp"
 #include "temporary_folder.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::sweep;
+namespace zlg::sweep::motion_files_test {
 
 class MotionFiles : public testing::Test {
 protected:
@@ -80,4 +77,4 @@ TEST_F(MotionFiles, that_are_written_or_replaced_are_seen) {
     EXPECT_NO_THROW(MotionWatch{unmoved}.require_unchanged());
 }
 
-}  // namespace
+}  // namespace zlg::sweep::motion_files_test

@@ -7,10 +7,7 @@
 #include "descriptions.hpp"
 #include "temporary_folder.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::sweep;
+namespace zlg::sweep::results_test {
 
 Rows two_rows() {
     Rows rows;
@@ -130,4 +127,4 @@ TEST(Results, two_files_may_not_contradict_each_other) {
     EXPECT_THROW(add_rows(rows, other, "other"), logs::FormatError);
 }
 
-}  // namespace
+}  // namespace zlg::sweep::results_test

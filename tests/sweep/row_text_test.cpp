@@ -4,9 +4,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg::sweep;
+namespace zlg::sweep::row_text_test {
 
 const Row row{.gyro = 7,
               .status = Status::not_finite,
@@ -36,4 +34,4 @@ TEST(RowText, one_wrong_character_or_another_number_of_metrics_is_no_row) {
 // The check value of CRC-32C in the catalogue of R. Williams: of the nine digits.
 TEST(RowText, checksum_is_crc_32c) { EXPECT_EQ(text_checksum("123456789"), "e3069283"); }
 
-}  // namespace
+}  // namespace zlg::sweep::row_text_test

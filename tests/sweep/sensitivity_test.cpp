@@ -7,9 +7,7 @@
 
 #include "descriptions.hpp"
 
-namespace {
-
-using namespace zlg::sweep;
+namespace zlg::sweep::sensitivity_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -216,4 +214,4 @@ TEST(Sensitivity, bootstrap_intervals_cover_as_often_as_they_say) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::sweep::sensitivity_test

@@ -4,9 +4,7 @@
 
 #include "descriptions.hpp"
 
-namespace {
-
-using namespace zlg::sweep;
+namespace zlg::sweep::statistics_test {
 
 Description limited() { return parse("[sweep]\ngyros = 9\n" + testing_metric + "max = 2\n", "s"); }
 
@@ -182,4 +180,4 @@ TEST(Statistics, the_worst_are_the_failed_ones_and_then_the_farthest) {
     EXPECT_EQ(worst(limited(), rows, 99).size(), 5u);
 }
 
-}  // namespace
+}  // namespace zlg::sweep::statistics_test

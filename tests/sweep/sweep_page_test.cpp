@@ -4,10 +4,7 @@
 
 #include "descriptions.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::sweep;
+namespace zlg::sweep::sweep_page_test {
 
 Description limited(int gyros, bool sensitivity = false) {
     return parse("[sweep]\nsensitivity = " + std::string{sensitivity ? "true" : "false"} +
@@ -69,4 +66,4 @@ TEST(SweepPage, is_made_also_where_all_failed_or_one_gyro_is_there) {
     EXPECT_NE(sweep_page(plain, rows).verdict.find("1 gyros, none failed"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace zlg::sweep::sweep_page_test

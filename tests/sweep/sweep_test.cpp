@@ -6,10 +6,7 @@
 #include "descriptions.hpp"
 #include "temporary_folder.hpp"
 
-namespace {
-
-using namespace zlg;
-using namespace zlg::sweep;
+namespace zlg::sweep::sweep_test {
 
 Task task_of(const std::string& out, const Description& description = short_sweep()) {
     return {.description = description, .out = out, .threads = 1};
@@ -138,4 +135,4 @@ TEST(Sweep, parts_of_different_sweeps_do_not_merge) {
     EXPECT_THROW((void)merge({folder.file("a.h5")}, folder.file("b.h5"), false), logs::IoError) << "it exists";
 }
 
-}  // namespace
+}  // namespace zlg::sweep::sweep_test

@@ -4,9 +4,7 @@
 
 #include "descriptions.hpp"
 
-namespace {
-
-using namespace zlg::sweep;
+namespace zlg::sweep::tolerances_test {
 
 const std::string two =
     "[sweep]\ngyros = 2000\n"
@@ -82,4 +80,4 @@ TEST(Tolerances, too_few_gyros_reach_nothing) {
     EXPECT_GE(found.yield->gyros, 30);
 }
 
-}  // namespace
+}  // namespace zlg::sweep::tolerances_test

@@ -4,8 +4,7 @@
 
 #include "test.hpp"
 
-namespace zlg::text {
-namespace {
+namespace zlg::text::escape_test {
 
 TEST(Escape, ControlCharactersAreShown) {
     EXPECT_EQ(escaped("a\x1b[31mb"), "a\\u001B[31mb");
@@ -53,5 +52,4 @@ TEST(Escape, AnExcerptIsOneLineThatSaysWhetherItIsWhole) {
     EXPECT_EQ(excerpt("", 6, ' '), "");
 }
 
-}  // namespace
-}  // namespace zlg::text
+}  // namespace zlg::text::escape_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::text {
-namespace {
+namespace zlg::text::inputs_test {
 
 namespace fs = std::filesystem;
 
@@ -30,5 +29,4 @@ TEST(Inputs, AFileIsTheSameUnderAllItsNames) {
     fs::remove_all(folder);
 }
 
-}  // namespace
-}  // namespace zlg::text
+}  // namespace zlg::text::inputs_test

@@ -5,8 +5,7 @@
 
 #include "test.hpp"
 
-namespace zlg::text {
-namespace {
+namespace zlg::text::toml_depth_test {
 
 std::string repeated(std::string_view piece, int n) {
     std::string text;
@@ -78,5 +77,4 @@ RC_GTEST_PROP(TomlDepth, WhatPassesIsNoDeepTree, ()) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::text
+}  // namespace zlg::text::toml_depth_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::text {
-namespace {
+namespace zlg::text::toml_document_test {
 
 TEST(TomlDocument, IsWhatTheParserMakesOfIt) {
     const toml::table document = parse_toml("[gyro]\ntick_s = 0.01\n");
@@ -22,5 +21,4 @@ TEST(TomlDocument, ADeepKeyIsRefusedAtItsPlace) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::text
+}  // namespace zlg::text::toml_document_test

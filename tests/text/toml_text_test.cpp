@@ -6,8 +6,7 @@
 
 #include "test.hpp"
 
-namespace zlg::text {
-namespace {
+namespace zlg::text::toml_text_test {
 
 TEST(TomlText, AStringIsOneQuotedLine) {
     EXPECT_EQ(toml_string("optimal"), "\"optimal\"");
@@ -26,5 +25,4 @@ TEST(TomlText, ARealReadsBackToTheSameNumber) {
     EXPECT_TRUE(std::signbit(*parse_toml("v = " + toml_real(-0.0))["v"].value<double>()));
 }
 
-}  // namespace
-}  // namespace zlg::text
+}  // namespace zlg::text::toml_text_test

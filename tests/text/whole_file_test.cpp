@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::text {
-namespace {
+namespace zlg::text::whole_file_test {
 
 TEST(WholeFile, IsReadUpToTheLimit) {
     const std::string path = std::filesystem::path{testing::TempDir()} / "zlg-whole-file";
@@ -21,5 +20,4 @@ TEST(WholeFile, SaysWhyItCannotBeRead) {
     EXPECT_THROW((void)read_whole("/nowhere/at/all"), CannotRead);
 }
 
-}  // namespace
-}  // namespace zlg::text
+}  // namespace zlg::text::whole_file_test

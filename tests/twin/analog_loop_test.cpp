@@ -2,8 +2,7 @@
 
 #include "quiet_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::analog_loop_test {
 
 // A loop that holds the mode of helicity +1 at length 0, and the state that it begins a half with.
 struct Half {
@@ -112,5 +111,4 @@ TEST(AnalogLoop, AHalfIsNotTakenAtOnceWhereALimitMayBeReached) {
     EXPECT_TRUE(is_taken_at_once(coarse));
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::analog_loop_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::averaged_laser_test {
 
 TEST(AveragedLaser, HasThePublishedFiguresOfTheDefaultGyro) {
     const AveragedLaser a = averaged_laser(FourWave{LaserConfig{}}, 15.0);
@@ -55,5 +54,4 @@ TEST(AveragedLaser, RefusesWhatHasNoAverage) {
     EXPECT_THROW((void)averaged_laser(FourWave{LaserConfig{.gain_loss_ratio = 0.99}}, 15.0), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::averaged_laser_test

@@ -2,8 +2,7 @@
 
 #include "laser_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::beam_photodiodes_test {
 
 constexpr double half_s = 0.0025;
 
@@ -82,5 +81,4 @@ TEST(BeamPhotodiodes, TheBeatFallsWithThePowerAndNotWithTheGains) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::beam_photodiodes_test

@@ -5,8 +5,7 @@
 #include "adler_reference.hpp"
 #include "turns_from.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::beat_phase_test {
 
 using core::not_a_number;
 using std::numbers::pi;
@@ -243,5 +242,4 @@ TEST(BeatPhase, RefusesDrivesThatCannotBeTold) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::beat_phase_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::competition_test {
 
 // Two waves; the others have no gain and touch nobody.
 Competition two_waves(double gain_1, double gain_2, double cross) {
@@ -103,5 +102,4 @@ TEST(Competition, TheSteadyStateIsWhereTheWavesGo) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::competition_test

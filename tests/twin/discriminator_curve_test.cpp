@@ -4,8 +4,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::discriminator_curve_test {
 
 TEST(DiscriminatorCurve, TurnsTheSignalBackIntoItsDetuning) {
     const FourWave laser{LaserConfig{}};
@@ -80,5 +79,4 @@ TEST(DiscriminatorCurve, RefusesWhatHasNoCurve) {
     EXPECT_THROW((void)discriminator_curve(FourWave{LaserConfig{.gain_loss_ratio = 0.9}}, 15.0), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::discriminator_curve_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::faddeeva_test {
 
 using Complex = std::complex<double>;
 
@@ -108,5 +107,4 @@ TEST(FaddeevaSlope, AgreesWithFortyDigitsDownToEqualPlaces) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::faddeeva_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::fault_kinds_test {
 
 TEST(FaultKinds, EachHasARowWithANameOfItsOwn) {
     EXPECT_EQ((std::set<std::string_view>{fault_kind_names.begin(), fault_kind_names.end()}.size()), n_fault_kinds);
@@ -24,5 +23,4 @@ TEST(FaultKinds, ARandomOneIsWithinWhatIsAllowed) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::fault_kinds_test

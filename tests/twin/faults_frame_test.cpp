@@ -3,8 +3,7 @@
 #include "counter_limit.hpp"
 #include "faults_support.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::faults_frame_test {
 
 TEST(Faults, SlowConvertersStickAndFail) {
     TwinConfig config = quiet_gyro();
@@ -140,5 +139,4 @@ TEST(Faults, CounterLimitFollowsUpToItsRate) {
     EXPECT_EQ(none.shown(std::uint64_t{1} << 62, 0.01), std::uint64_t{1} << 62);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::faults_frame_test

@@ -2,8 +2,7 @@
 
 #include "faults_support.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::faults_light_test {
 
 TEST(Faults, LaserThatIsOffGivesNoLightAndGarbageUntilItIsBack) {
     const auto halves = with_fault(FaultKind::laser_off, 10 * half_s, 4 * half_s, 0.0, 30);
@@ -62,5 +61,4 @@ TEST(Faults, NoisyLightHasTheNoiseAskedFor) {
     EXPECT_NEAR(std::sqrt(sum / 16000.0), 50.0, 1.5);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::faults_light_test

@@ -2,8 +2,7 @@
 
 #include "faults_support.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::faults_perimeter_test {
 
 // The loop holds its integrator in the dark: what the block does meanwhile is found as detuning afterwards.
 TEST(Faults, TheAnalogLoopHoldsInTheDark) {
@@ -160,5 +159,4 @@ TEST(Faults, AThermalShockIsReadAndMovesThePerimeter) {
     EXPECT_NEAR(static_cast<double>(std::abs(counts(halves, 38))), 150.0 * 0.992 * (1.0 - 3.6 * 0.04), 1.5);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::faults_perimeter_test

@@ -3,8 +3,7 @@
 
 #include "faults_support.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::faults_test {
 
 bool same_bits(const TwinHalf& a, const TwinHalf& b) {
     return a.sensor.counter == b.sensor.counter && a.sensor.light_a == b.sensor.light_a &&
@@ -163,5 +162,4 @@ TEST(Faults, WhatCannotBeIsRefused) {
     EXPECT_EQ(complaint({FaultKind::mode_hop, 0.0, 1.0, 0.5}), "");
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::faults_test

@@ -2,8 +2,7 @@
 
 #include "laser_reference.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::four_wave_test {
 
 double slope(const FourWave& laser, double field_g) { return laser.at(1e-5, field_g).discriminator() / 1e-5; }
 
@@ -265,5 +264,4 @@ TEST(FourWave, IntensitiesAreContinuousAcrossZoneEdges) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::four_wave_test

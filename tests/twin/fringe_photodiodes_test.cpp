@@ -4,8 +4,7 @@
 
 #include "laser_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::fringe_photodiodes_test {
 
 constexpr double tau = 2.0 * std::numbers::pi;
 
@@ -153,5 +152,4 @@ TEST(FringePhotodiodes, AreDarkWhereTheGyroIsDark) {
     EXPECT_TRUE(dark);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::fringe_photodiodes_test

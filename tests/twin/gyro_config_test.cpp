@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::gyro_config_test {
 
 // A 0.16 m ring with 3.263 arcsec per count, 200 Hz ticks and a bias of 60 kHz.
 TEST(GyroConfig, TheDefaultsAreThePublishedGyro) {
@@ -31,5 +30,4 @@ TEST(GyroConfig, TheDefaultsAreThePublishedGyro) {
     EXPECT_EQ(piezo.slew_v_s, 4000.0);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::gyro_config_test

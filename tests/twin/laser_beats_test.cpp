@@ -7,8 +7,7 @@
 
 #include <zlg/twin/four_wave.hpp>
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::laser_beats_test {
 
 constexpr double tau = 2.0 * std::numbers::pi;
 constexpr double half_edge_s = 25e-6;
@@ -116,5 +115,4 @@ TEST(LaserBeats, TheLargerBeatIsFollowedAndNoneOfTwoEqualOnes) {
     EXPECT_EQ(followed_at(0.5), -1);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::laser_beats_test

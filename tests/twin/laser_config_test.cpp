@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::laser_config_test {
 
 std::string refusal(const LaserConfig& config) {
     return test::refusal_by<std::invalid_argument>([&] { validate(config); });
@@ -75,5 +74,4 @@ TEST(LaserConfig, GainForAThirdModeIsRefused) {
         << refusal(config);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::laser_config_test

@@ -7,8 +7,7 @@
 
 #include "laser_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::laser_edges_test {
 
 LaserConfig one_line(double gain_loss_ratio, double opposite_sigma_coupling) {
     return {.gain_loss_ratio = gain_loss_ratio,
@@ -107,5 +106,4 @@ TEST(LaserEdges, AnAbsurdRotationBetweenTheModesIsSteppedInTime) {
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30.0);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::laser_edges_test

@@ -6,8 +6,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::laser_table_test {
 
 // Largest difference of two answers, in parts of the centre intensity and of the bias at the table's largest field.
 double difference(const LaserTable& table, double perimeter_lambda, double field_g) {
@@ -111,5 +110,4 @@ TEST(LaserTable, RefusesWhatItCannotTabulate) {
     EXPECT_THROW(LaserTable(LaserConfig{}, 1e5), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::laser_table_test

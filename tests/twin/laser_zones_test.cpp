@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::laser_zones_test {
 
 constexpr double tolerance_lambda = 0.002;
 
@@ -96,5 +95,4 @@ TEST(LaserZones, RefusesAStretchThatIsNone) {
     EXPECT_THROW((void)laser_zones(laser, std::numeric_limits<double>::quiet_NaN(), 0.0, 0.5), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::laser_zones_test

@@ -4,8 +4,7 @@
 
 #include "lock_in_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::lock_in_test {
 
 using std::numbers::pi;
 
@@ -280,5 +279,4 @@ TEST(DitheredEdges, ChooseTheirLawByTheRateThatTheyMeasure) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::lock_in_test

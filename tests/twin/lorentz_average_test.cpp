@@ -2,8 +2,7 @@
 
 #include "quadrature.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::lorentz_average_test {
 
 double maxwell(double v) { return std::exp(-v * v) * std::numbers::inv_sqrtpi; }
 
@@ -60,5 +59,4 @@ TEST(LorentzAverage, OfAVeryWideLineIsOne) {
     EXPECT_NEAR(average_overlap(wide, wide), 1.0, 1e-7);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::lorentz_average_test

@@ -4,8 +4,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::motion_test {
 
 using std::numbers::pi;
 using zlg::core::not_a_number;
@@ -123,5 +122,4 @@ TEST(Motion, NumbersThatAreNotFiniteAreRefused) {
     EXPECT_THROW((void)Motion::from_increments({1.0}, not_a_number), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::motion_test

@@ -3,8 +3,7 @@
 #include "test.hpp"
 #include "turns_from.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::optical_beats_test {
 
 using std::numbers::pi;
 
@@ -156,5 +155,4 @@ TEST(OpticalBeats, LightBelowTheThresholdIsNotCounted) {
     EXPECT_EQ(beats.latch_quarters(), before);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::optical_beats_test

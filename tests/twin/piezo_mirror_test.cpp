@@ -2,8 +2,7 @@
 
 #include "quiet_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::piezo_mirror_test {
 
 constexpr double step_s = 78.125e-6;
 
@@ -214,5 +213,4 @@ TEST(PiezoMirror, RefusesWhatNoPlayOperatorsGiveAndTheIdealisedLoop) {
     });
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::piezo_mirror_test

@@ -3,8 +3,7 @@
 #include "test.hpp"
 #include "turns_from.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::quadrature_test {
 
 Signals phasor(double turns_now, double amplitude = 1.0) {
     const double angle = 2.0 * std::numbers::pi * turns_now;
@@ -74,5 +73,4 @@ TEST(QuarterTurns, AgreeWithTheDecoderOnRandomMotion) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::quadrature_test

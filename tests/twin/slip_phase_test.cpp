@@ -3,8 +3,7 @@
 #include "test.hpp"
 #include "turns_from.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::slip_phase_test {
 
 using std::numbers::pi;
 
@@ -100,5 +99,4 @@ TEST(SlipPhase, RefusesWhatTheExactStepperRefuses) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::slip_phase_test

@@ -5,8 +5,7 @@
 
 #include "laser_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::twin_agreement_test {
 
 TwinConfig with_constants_of_laser(TwinConfig config) {
     config.gyro = with_laser(config.gyro, config.laser.quadrature,
@@ -160,5 +159,4 @@ TEST(TwinAgreement, ASlowRotationIsHeldInTheDeadZone) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::twin_agreement_test

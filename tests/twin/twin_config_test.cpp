@@ -8,8 +8,7 @@
 
 #include "quiet_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::twin_config_test {
 
 using core::not_a_number;
 
@@ -109,5 +108,4 @@ TEST(TwinConfig, TheTwinIsToldTheMeanOfAHalfWithItsEdges) {
     EXPECT_EQ(equivalent.scale_arcsec, gyro.scale_arcsec);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::twin_config_test

@@ -5,8 +5,7 @@
 
 #include "laser_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::twin_laser_test {
 
 constexpr double plateau_hz = 60430.0;  // of the four-wave equations for the default gas, at 15 G
 
@@ -157,5 +156,4 @@ TEST(TwinLaser, RefusesALaserWithoutLight) {
     EXPECT_THROW((Twin{config, Motion::rest()}), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::twin_laser_test

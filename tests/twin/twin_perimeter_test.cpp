@@ -2,8 +2,7 @@
 
 #include "quiet_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::twin_perimeter_test {
 
 TEST(TwinPerimeter, AMoveOfOneHalfWaveIsSlewLimitedAndTakesTenMilliseconds) {
     TwinConfig config = held_gyro();
@@ -322,5 +321,4 @@ TEST(TwinPerimeter, AClosingBeforeTheMoveIsDoneStillHasTheMissOfTheModeAhead) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::twin_perimeter_test

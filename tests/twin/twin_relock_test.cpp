@@ -2,8 +2,7 @@
 
 #include "quiet_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::twin_relock_test {
 
 TEST(TwinRelock, WithTheWrongReferenceTheLoopPushesAway) {
     TwinConfig config = quiet_gyro();
@@ -189,5 +188,4 @@ TEST(TwinRelock, TheFalseAngleAgreesWithBruteForceToAMillionth) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::twin_relock_test

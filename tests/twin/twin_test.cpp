@@ -2,8 +2,7 @@
 
 #include "quiet_gyro.hpp"
 
-namespace zlg::twin {
-namespace {
+namespace zlg::twin::twin_test {
 
 struct Moments {
     double mean = 0.0;
@@ -256,5 +255,4 @@ TEST(Twin, SwitchingOneNoiseOffDoesNotShiftAnother) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin
+}  // namespace zlg::twin::twin_test

@@ -7,8 +7,7 @@
 
 #include "test.hpp"
 
-namespace zlg::twin::default_gas {
-namespace {
+namespace zlg::twin::default_gas::waves_of_default_gas_test {
 
 constexpr double field_g = 15.0;
 
@@ -52,5 +51,4 @@ TEST(DefaultGas, HasABiasThatGrowsWithItsGainAndASlopeThatFalls) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::twin::default_gas
+}  // namespace zlg::twin::default_gas::waves_of_default_gas_test

@@ -5,8 +5,7 @@
 
 #include "test.hpp"
 
-namespace zlg::wire {
-namespace {
+namespace zlg::wire::angle_register_test {
 
 AngleRegister sum(const std::vector<double>& terms) {
     AngleRegister r;
@@ -74,5 +73,4 @@ RC_GTEST_PROP(AngleRegister, TheOrderOfTheTermsDoesNotMatter, ()) {
     RC_ASSERT(sum(terms) == forward);
 }
 
-}  // namespace
-}  // namespace zlg::wire
+}  // namespace zlg::wire::angle_register_test

@@ -5,8 +5,7 @@
 
 #include "test.hpp"
 
-namespace zlg::wire {
-namespace {
+namespace zlg::wire::cobs_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -76,5 +75,4 @@ RC_GTEST_PROP(Cobs, ComesBackAndHoldsNoZero, ()) {
     RC_ASSERT(out == bytes);
 }
 
-}  // namespace
-}  // namespace zlg::wire
+}  // namespace zlg::wire::cobs_test

@@ -6,8 +6,7 @@
 
 #include "test.hpp"
 
-namespace zlg::wire {
-namespace {
+namespace zlg::wire::command_handler_test {
 
 constexpr std::uint16_t interval_key = 0x0402;
 constexpr std::uint16_t gap_key = 0x0501;
@@ -269,5 +268,4 @@ TEST(CommandHandler, TheCoreStopsStartsAndSwitchesOnCommand) {
     EXPECT_EQ(gyro.openings(1000), 5);
 }
 
-}  // namespace
-}  // namespace zlg::wire
+}  // namespace zlg::wire::command_handler_test

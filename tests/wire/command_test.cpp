@@ -1,20 +1,8 @@
 #include <zlg/wire/command.hpp>
 
-#include "test.hpp"
+#include "carried.hpp"
 
-namespace zlg::wire {
-namespace {
-
-template <class T>
-std::vector<std::uint8_t> body_of(const T& message) {
-    Sender sender;
-    const Frame frame = frame_of(sender, message);
-    Receiver receiver;
-    std::span<const std::uint8_t> left = frame.view();
-    Message received;
-    EXPECT_TRUE(receive(receiver, left, received));
-    return {received.body.begin(), received.body.end()};
-}
+namespace zlg::wire::command_test {
 
 Parameters full() {
     Parameters p{.n = max_parameters};
@@ -94,5 +82,4 @@ TEST(Reply, WhatNoGyroSendsIsRefused) {
     EXPECT_FALSE(reply_in({.type = MessageType::reply, .body = body}).has_value());
 }
 
-}  // namespace
-}  // namespace zlg::wire
+}  // namespace zlg::wire::command_test

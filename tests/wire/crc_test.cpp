@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::wire {
-namespace {
+namespace zlg::wire::crc_test {
 
 std::vector<std::uint8_t> run(std::size_t n, int from, int step) {
     std::vector<std::uint8_t> bytes;
@@ -62,5 +61,4 @@ TEST(Crc32c, SeesEveryErrorOfOneOrTwoBitsInAMessageOfTelemetry) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::wire
+}  // namespace zlg::wire::crc_test

@@ -6,8 +6,7 @@
 
 #include "test.hpp"
 
-namespace zlg::wire {
-namespace {
+namespace zlg::wire::frame_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -112,26 +111,27 @@ TEST(Frame, MoreBytesWithoutAZeroThanAFrameHasAreSkipped) {
     EXPECT_EQ(receiver.n_skipped, 100'000u);
 }
 
+// Stuffed behind its right CRC, whatever it holds.
+Bytes sent_with_crc(Bytes message) {
+    const std::uint32_t crc = crc32c(message);
+    for (int k = 0; k < 4; ++k) message.push_back(static_cast<std::uint8_t>(crc >> (8 * k)));
+    Bytes out(stuffed_bytes(message.size()));
+    out.resize(stuff(message, out));
+    return out + Bytes{0};
+}
+
 TEST(Frame, ALargerMessageIsNotTakenHoweverRightItsCrc) {
     for (const std::size_t n_body : {max_body_bytes, max_body_bytes + 1}) {
-        Bytes message(header_bytes + n_body, 0x01);
-        const std::uint32_t crc = crc32c(message);
-        for (int k = 0; k < 4; ++k) message.push_back(static_cast<std::uint8_t>(crc >> (8 * k)));
-        Bytes out(stuffed_bytes(message.size()));
-        out.resize(stuff(message, out));
-        EXPECT_EQ(received(out + Bytes{0}).size(), n_body == max_body_bytes ? 1u : 0u);
+        const Bytes message(header_bytes + n_body, 0x01);
+        EXPECT_EQ(received(sent_with_crc(message)).size(), n_body == max_body_bytes ? 1u : 0u);
     }
 }
 
 TEST(Frame, AnotherVersionIsNotTaken) {
     // As `frame_of` makes it, but with version 2 and its right CRC.
-    Bytes message{0x02, 0x01, 0x01, 0x00, 0x01, 0x01, 0x01, 0x01, 0xAA};
-    const std::uint32_t crc = crc32c(message);
-    for (int k = 0; k < 4; ++k) message.push_back(static_cast<std::uint8_t>(crc >> (8 * k)));
-    Bytes out(stuffed_bytes(message.size()));
-    out.resize(stuff(message, out));
+    const Bytes message{0x02, 0x01, 0x01, 0x00, 0x01, 0x01, 0x01, 0x01, 0xAA};
     Receiver receiver;
-    EXPECT_TRUE(received(receiver, out + Bytes{0}).empty());
+    EXPECT_TRUE(received(receiver, sent_with_crc(message)).empty());
     EXPECT_EQ(receiver.n_foreign, 1u);
 }
 
@@ -213,5 +213,4 @@ TEST(Frame, OfDamagedFramesNonePasses) {
     EXPECT_GT(n_damaged, 100'000u);
 }
 
-}  // namespace
-}  // namespace zlg::wire
+}  // namespace zlg::wire::frame_test

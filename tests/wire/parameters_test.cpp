@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::wire {
-namespace {
+namespace zlg::wire::parameters_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
@@ -121,5 +120,4 @@ TEST(Parameters, StandInTheDescription) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::wire
+}  // namespace zlg::wire::parameters_test

@@ -2,10 +2,9 @@
 #include <zlg/core/gyro_control.hpp>
 #include <zlg/wire/status.hpp>
 
-#include "test.hpp"
+#include "carried.hpp"
 
-namespace zlg::wire {
-namespace {
+namespace zlg::wire::status_test {
 
 Status filled() {
     return {.tick = 0x01020304,
@@ -33,16 +32,6 @@ Status filled() {
             .n_overruns = 7,
             .stack_used_bytes = 8,
             .last_fault = 9};
-}
-
-std::vector<std::uint8_t> body_of(const Status& s) {
-    Sender sender;
-    const Frame frame = frame_of(sender, s);
-    Receiver receiver;
-    std::span<const std::uint8_t> left = frame.view();
-    Message message;
-    EXPECT_TRUE(receive(receiver, left, message));
-    return {message.body.begin(), message.body.end()};
 }
 
 std::optional<Status> carried(const Status& s) {
@@ -130,5 +119,4 @@ TEST(Status, OfTheCoreIsWhatTheCoreKnows) {
     EXPECT_EQ(s.magnetic_arcsec_s, 0.0f);
 }
 
-}  // namespace
-}  // namespace zlg::wire
+}  // namespace zlg::wire::status_test

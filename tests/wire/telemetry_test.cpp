@@ -1,9 +1,8 @@
 #include <zlg/wire/telemetry.hpp>
 
-#include "test.hpp"
+#include "carried.hpp"
 
-namespace zlg::wire {
-namespace {
+namespace zlg::wire::telemetry_test {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -32,23 +31,8 @@ Telemetry filled() {
 }
 
 std::optional<Telemetry> carried(const Telemetry& t) {
-    Sender sender{.session = 3};
-    const Frame frame = frame_of(sender, t);
-    Receiver receiver;
-    std::span<const std::uint8_t> left = frame.view();
-    Message message;
-    if (!receive(receiver, left, message)) return std::nullopt;
-    return telemetry_in(message);
-}
-
-std::vector<std::uint8_t> body_of(const Telemetry& t) {
-    Sender sender;
-    const Frame frame = frame_of(sender, t);
-    Receiver receiver;
-    std::span<const std::uint8_t> left = frame.view();
-    Message message;
-    EXPECT_TRUE(receive(receiver, left, message));
-    return {message.body.begin(), message.body.end()};
+    const auto body = body_of(t);
+    return telemetry_in({.type = MessageType::telemetry, .body = body});
 }
 
 TEST(Telemetry, ArrivesAsItWasSent) {
@@ -211,5 +195,4 @@ TEST(Telemetry, FitsTwentyTimesIntoATenthOfASecondOf921600Baud) {
     EXPECT_LE(20 * frame_of(sender, filled()).size, 9216u);
 }
 
-}  // namespace
-}  // namespace zlg::wire
+}  // namespace zlg::wire::telemetry_test

@@ -3,8 +3,7 @@
 #include "accuracy/parts.hpp"
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::accuracy_test {
 
 const Accuracy& quick() {
     static const Accuracy accuracy = measure_accuracy({.quick = true, .seed = 3, .threads = 2});
@@ -154,5 +153,4 @@ TEST(Accuracy, FiguresDoNotDependOnTheThreads) {
     EXPECT_EQ(markdown(alone), markdown(together));
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::accuracy_test

@@ -3,8 +3,7 @@
 #include "synthetic/relock_decay.hpp"
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::bound_test {
 
 GyroLaw counted(double scale) {
     GyroLaw g;
@@ -99,5 +98,4 @@ TEST(AccuracyBound, OfTheLightGrowsWithTheMiss) {
     EXPECT_NEAR(bound_of(g, {}).relock_arcsec, one, 0.05 * one);
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::bound_test

@@ -8,8 +8,7 @@
 #include "synthetic/gyro.hpp"
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::close_gaps_test {
 
 constexpr std::int64_t learning_ticks = 600;
 constexpr std::int64_t opening = 30;  // of the switch, in ticks of a trial
@@ -174,5 +173,4 @@ TEST(LitHalves, APulseThatContradictsThemIsInSigma) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::close_gaps_test

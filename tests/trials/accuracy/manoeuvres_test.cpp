@@ -3,8 +3,7 @@
 #include "accuracy/parts.hpp"
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::manoeuvres_test {
 
 constexpr ManoeuvreLaw laws[] = {ManoeuvreLaw::ramp, ManoeuvreLaw::linear, ManoeuvreLaw::exponential,
                                  ManoeuvreLaw::pulse};
@@ -72,5 +71,4 @@ TEST(Manoeuvres, EveryGapHasASigmaThatKnowsOfTheFirstOne) {
     }
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::manoeuvres_test

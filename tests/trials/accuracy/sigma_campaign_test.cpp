@@ -4,8 +4,7 @@
 #include "accuracy/trial.hpp"
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::sigma_campaign_test {
 
 // A fifth of the campaign.
 const std::vector<SigmaFigures>& figures() {
@@ -87,5 +86,4 @@ TEST(SigmaCampaign, ATextHasARowForEachClassAndMethod) {
     EXPECT_NE(text.find("| rest | joint | 3 |"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::sigma_campaign_test

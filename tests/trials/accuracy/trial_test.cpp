@@ -3,8 +3,7 @@
 #include "accuracy/parts.hpp"
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::trial_test {
 
 std::vector<std::vector<SwitchError>> errors_of(const GyroLaw& gyro, const MotionLaw& motion,
                                                 const std::vector<std::string>& names, int switches) {
@@ -108,5 +107,4 @@ TEST(AccuracyStatistics, AreThoseOfTheDefinition) {
     EXPECT_DOUBLE_EQ(f.within_3_sigma_ratio, 0.5);
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::trial_test

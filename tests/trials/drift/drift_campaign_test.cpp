@@ -4,8 +4,7 @@
 
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::drift_campaign_test {
 
 // A strong drift that does not warm up, on a base at rest, and switches that leave little.
 config::Config gyro() {
@@ -137,5 +136,4 @@ TEST(DriftCampaign, AGyroThatIsNoneIsSaid) {
     EXPECT_THROW((void)run(campaign({{"none", c, {method(core::MagneticMethod::none)}}})), config::ConfigError);
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::drift_campaign_test

@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::fault_campaign_test {
 
 using twin::FaultKind;
 
@@ -237,5 +236,4 @@ TEST(FaultCampaign, TheTableHasARowForEachKind) {
     EXPECT_EQ(std::ranges::count(table, '|') % (2 + 29), 0);
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::fault_campaign_test

@@ -4,8 +4,7 @@
 
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::gyro_campaign_test {
 
 using config::Fidelity;
 
@@ -119,5 +118,4 @@ TEST(GyroCampaign, EveryLimitThatIsNotKeptIsNamed) {
     EXPECT_NE(complaints({alarmed})[0].find("false alarm: bias_lost"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::gyro_campaign_test

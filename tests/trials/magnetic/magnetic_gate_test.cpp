@@ -2,8 +2,7 @@
 
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::magnetic_gate_test {
 
 using core::ScheduleKind;
 
@@ -52,5 +51,4 @@ TEST(MagneticGate, ASteadyRotationInStepIsLeftInTheAngle) {
     EXPECT_LE(varied.with_arcsec, 1.1 * varied.without_arcsec);
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::magnetic_gate_test

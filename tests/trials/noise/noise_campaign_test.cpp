@@ -3,9 +3,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::noise_campaign_test {
 
 // The campaign itself is `zlg_trials noise`; a few short records show that it counts.
 TEST(NoiseCampaign, errors_are_as_large_as_claimed) {
@@ -45,4 +43,4 @@ TEST(NoiseCampaign, is_a_table) {
     EXPECT_NE(text.find("| angle random walk | 1 | 1 | 0 | 0 |"), std::string::npos) << text;
 }
 
-}  // namespace
+}  // namespace zlg::noise_campaign_test

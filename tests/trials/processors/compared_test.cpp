@@ -6,9 +6,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::compared_test {
 
 // This program's core, with one bit wrong in one half, if asked for.
 class OtherProcessor final : public rig::Processor {
@@ -87,4 +85,4 @@ TEST(ComparedProcessor, in_a_loop_makes_the_records_of_the_loop_without) {
     }
 }
 
-}  // namespace
+}  // namespace zlg::compared_test

@@ -2,10 +2,8 @@
 
 #include "test.hpp"
 
-namespace {
+namespace zlg::trials::output_bits_test {
 
-using namespace zlg;
-using namespace zlg::trials;
 using firmware::HalfOutput;
 
 TEST(OutputBits, of_a_real_number_are_those_of_ieee_754) {
@@ -64,4 +62,4 @@ TEST(BitHash, is_fnv_1a_of_the_bytes) {
     EXPECT_NE(a.value(), b.value());
 }
 
-}  // namespace
+}  // namespace zlg::trials::output_bits_test

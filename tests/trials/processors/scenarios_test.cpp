@@ -6,9 +6,7 @@
 
 #include "test.hpp"
 
-namespace {
-
-using namespace zlg;
+namespace zlg::scenarios_test {
 
 TEST(Scenarios, are_gyros_that_can_be_run) {
     for (std::int64_t k = 0; k < 60; ++k) {
@@ -63,4 +61,4 @@ TEST(Scenarios, choose_every_method_and_every_fault) {
     EXPECT_TRUE(none);
 }
 
-}  // namespace
+}  // namespace zlg::scenarios_test

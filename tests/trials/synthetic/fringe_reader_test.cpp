@@ -1,8 +1,7 @@
 #include "synthetic/fringe_reader.hpp"
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::fringe_reader_test {
 
 // Rotation of an eighth of a fringe, nearly, and a bias of 150.3 fringes a half, to and fro.
 double phase_after(int half) { return 0.1237 * half + (half % 2 == 0 ? 150.3 : 0.0); }
@@ -74,5 +73,4 @@ TEST(FringeReader, AHalfWithoutABeatHasNoPlace) {
     EXPECT_NEAR(static_cast<double>(r.fringe) / core::count_parts, 0.25, 0.02);
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::fringe_reader_test

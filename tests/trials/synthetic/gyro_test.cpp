@@ -1,8 +1,7 @@
 #include "synthetic/gyro.hpp"
 #include "test.hpp"
 
-namespace zlg::trials {
-namespace {
+namespace zlg::trials::gyro_test {
 
 constexpr double half_s = 0.0025;
 
@@ -151,5 +150,4 @@ TEST(AccuracyGyro, LightReadsTheDetuningOfTheHalf) {
     EXPECT_NEAR(half.record.detuning_sq_lambda2, 0.22 * 0.22 * (1.0 - 0.28 * 0.5 + 0.28 * 0.28 / 12.0), 1e-5);
 }
 
-}  // namespace
-}  // namespace zlg::trials
+}  // namespace zlg::trials::gyro_test
