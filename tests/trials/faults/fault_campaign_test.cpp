@@ -26,13 +26,6 @@ TEST(FaultCampaign, MeetsEveryKindAndGyrosWithoutFault) {
     EXPECT_EQ(kinds.size(), figures.size());
 }
 
-TEST(FaultCampaign, NoFaultCrashesOrLetsOutWhatIsNoNumber) {
-    for (const FaultFigures& f : short_campaign()) {
-        EXPECT_EQ(f.crashed, 0) << f.kind;
-        EXPECT_EQ(f.not_finite, 0) << f.kind;
-    }
-}
-
 TEST(FaultCampaign, AGyroWithoutFaultIsValidAndRightAllTheTime) {
     const FaultFigures& none = short_campaign().front();
     EXPECT_EQ(none.wrong_ticks, 0);
@@ -42,14 +35,8 @@ TEST(FaultCampaign, AGyroWithoutFaultIsValidAndRightAllTheTime) {
 }
 
 TEST(FaultCampaign, GyrosRecoverAndAreValidAfterwards) {
-    for (const FaultFigures& f : short_campaign()) {
-        EXPECT_EQ(f.recovered, f.faults) << f.kind;
-        EXPECT_GE(f.valid_outside_ratio, 0.99) << f.kind;
-    }
-    const FaultFigures& all = short_campaign().back();
-    EXPECT_GE(all.valid_outside_ratio, 0.995);
-    EXPECT_GT(all.mean_sq_ratio, 0.5);
-    EXPECT_LT(all.mean_sq_ratio, 1.5);
+    for (const std::string& line : complaints(short_campaign())) ADD_FAILURE() << line;
+    for (const FaultFigures& f : short_campaign()) EXPECT_GE(f.valid_outside_ratio, 0.99) << f.kind;
 }
 
 // Durations of a fault are those that a gyro may meet, not only those that it outlives at once.
@@ -149,7 +136,6 @@ TEST(FaultCampaign, TheAngleIsConservedWhereItIsClaimed) {
 }
 
 TEST(FaultCampaign, EveryLimitThatIsNotKeptIsNamed) {
-    EXPECT_TRUE(complaints(short_campaign()).empty());
     const FaultFigures good{
         .kind = "all", .faults = 9, .valid_outside_ratio = 0.996, .mean_sq_ratio = 0.7, .recovered = 9};
     EXPECT_TRUE(complaints({good}).empty());
