@@ -163,10 +163,3 @@ def test_what_lies_in_the_gap_is_never_read():
     lo, hi = case[1].gap
     case[1].y[lo:hi] = 1e6
     assert estimates([case]) == first
-
-
-def test_a_case_without_evidence_is_not_known():
-    draw = np.random.default_rng(8)
-    case = drawn_case(draw, False)
-    case[1].y[0] = np.inf
-    assert estimates([case])[0][0] == 0

@@ -70,22 +70,6 @@ TEST(GapBridge, MethodNonePassesTheTicksAsRead) {
     EXPECT_FALSE(has(got.rows[11].flags, flag_switching));
 }
 
-TEST(GapBridge, SixteenTicksAreBridgedSeventeenAreNot) {
-    for (const int n : {16, 17}) {
-        const Delivered got = run(config_of(BridgeMethod::quadratic), log_of(60, 20, n, parabola));
-        const double mean = (parabola(16) + parabola(17) + parabola(18) + parabola(19)) / 4.0;
-        for (int k = 20; k < 20 + n; ++k) {
-            const AngleRow& row = got.rows[static_cast<unsigned>(k)];
-            EXPECT_NEAR(row.dtheta_arcsec, k < 36 ? parabola(k) : mean, 1e-9);  // delivered before it was known
-            EXPECT_NEAR(row.dtheta_final_arcsec, n == 16 ? parabola(k) : mean, 1e-9);
-            EXPECT_EQ(has(row.flags, flag_unrepaired), n == 17);
-            EXPECT_EQ(has(row.flags, flag_interpolated), n == 16);
-            EXPECT_EQ(std::isinf(row.sigma_arcsec), n == 17);
-        }
-        EXPECT_EQ(std::isinf(got.gaps.at(0).sigma_sum_arcsec), n == 17);
-    }
-}
-
 // However long a gap, its first 16 ticks were delivered with something else than their final value.
 TEST(GapBridge, TheCorrectionOfAGapThatIsTooLongIsOfItsFirstSixteenTicks) {
     for (const int n : {17, 40, 48, 56, 57, 64, 65, 100, 1000}) {
