@@ -96,13 +96,6 @@ class UnclearSettings(CliTest):
         self.assertTrue(self.refused("scale_arcsec = 1.5", "gyro.scale_arcsec = 2"))
         self.assertFalse(self.refused("laboratory = 12", "operator.name = x", "gyro.scale_arcsec = 1.5"))
 
-    def test_only_other_values_of_our_keys_contradict(self):
-        for lines in (["note = a", "note = b"], ["tick_s = 0.005", "gyro.tick_s = 0.0050"], ["operator.name = x", "operator.name = y"],
-                      ["gyro.tick_s = 5e-3", "gyro.tick_s = 0.005"]):
-            self.assertFalse(self.refused(*lines), lines)
-            self.succeed("inspect", self.folder / "raw.csv")
-        self.assertTrue(self.refused("gyro.tick_s = 0.005", "gyro.tick_s = 0.006"))
-
     def test_a_contradiction_is_damage(self):
         lines = ["laboratory = 12", "gyro.bias_hz = 50000", "gyro.bias_chi = 3", "gyro.bias_hz = 60000", "gyro.bias_chi = 3.0"]
         raw = self.write("raw.csv", csv_text(quiet_log(), lines=lines))

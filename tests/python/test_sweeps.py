@@ -67,19 +67,6 @@ def ishigami(x):
     return np.sin(x[:, 0]) + 7 * np.sin(x[:, 1]) ** 2 + 0.1 * x[:, 2] ** 4 * np.sin(x[:, 0])
 
 
-V1, V2, V13 = 0.5 * (1 + np.pi**4 / 50) ** 2, 49 / 8, 0.01 * np.pi**8 * (1 / 18 - 1 / 50)
-
-
-def test_indices_of_ishigamis_function_lie_within_their_intervals():
-    samples = saltelli(4096, 3, 1)
-    found = zlg.sobol(samples, ishigami(samples))
-    first = np.array([V1, V2, 0]) / (V1 + V2 + V13)
-    total = np.array([V1 + V13, V2, V13]) / (V1 + V2 + V13)
-    assert np.all((found.first_low <= first) & (first <= found.first_high))
-    assert np.all((found.total_low <= total) & (total <= found.total_high))
-    assert (found.n_rows, found.n_dropped) == (4096, 0)
-
-
 def test_indices_are_those_of_openturns():
     openturns = pytest.importorskip("openturns")
     samples = saltelli(500, 3, 2)
