@@ -32,6 +32,18 @@ std::vector<double> random_record(std::mt19937_64& engine, int n, bool with_gaps
 // A mean of 12 digits is compared with one of 18: what is left is the rounding of the samples' running sum.
 constexpr double agreement = 1e-12;
 
+void expect_definition(const AngleRecord& record, DeviationKind kind, std::int64_t m, double ratio,
+                       const direct::Result& expected) {
+    SCOPED_TRACE(testing::Message() << name_of(kind) << " m " << m << " ratio " << ratio);
+    const std::array factors{m};
+    const DeviationOptions options{.least_known_ratio = ratio, .noise = 0, .total_bias = TotalBias::as_computed};
+    const auto point = deviation(record, kind, factors, options).points.at(0);
+    const double factor = kind == DeviationKind::tdev ? static_cast<double>(m) / std::sqrt(3.0) : 1.0;
+    const double value = factor * static_cast<double>(std::sqrt(expected.variance));
+    EXPECT_EQ(point.terms, expected.terms);
+    EXPECT_NEAR(point.deviation, value, agreement * value);
+}
+
 TEST(Deviation, agrees_with_the_definition_on_random_records) {
     std::mt19937_64 engine(1);
     for (int trial = 0; trial < 4; ++trial) {
@@ -50,12 +62,7 @@ TEST(Deviation, agrees_with_the_definition_on_random_records) {
                         EXPECT_THROW(deviation(record, kind, factors, options), SeriesError);
                         continue;
                     }
-                    const auto point = deviation(record, kind, factors, options).points.at(0);
-                    const double factor = kind == DeviationKind::tdev ? static_cast<double>(m) / std::sqrt(3.0) : 1.0;
-                    const double value = factor * static_cast<double>(std::sqrt(expected.variance));
-                    EXPECT_EQ(point.terms, expected.terms) << name_of(kind) << " m " << m << " ratio " << ratio;
-                    EXPECT_NEAR(point.deviation, value, agreement * value)
-                        << name_of(kind) << " m " << m << " " << ratio;
+                    expect_definition(record, kind, m, ratio, expected);
                 }
     }
 }
@@ -75,14 +82,7 @@ TEST(Deviation, uses_single_known_angles_of_a_phase_record) {
             for (const std::int64_t m : {1, 2, 5, 30, 80}) {
                 const auto expected = direct::variance_of_phase(kind, phase, m, 0.5L);
                 ASSERT_GT(expected.terms, 0);
-                const std::array factors{m};
-                const auto point =
-                    deviation(record, kind, factors,
-                              {.least_known_ratio = 0.5, .noise = 0, .total_bias = TotalBias::as_computed})
-                        .points.at(0);
-                const double value = static_cast<double>(std::sqrt(expected.variance));
-                EXPECT_EQ(point.terms, expected.terms) << name_of(kind) << " m " << m;
-                EXPECT_NEAR(point.deviation, value, agreement * value) << name_of(kind) << " m " << m;
+                expect_definition(record, kind, m, 0.5, expected);
             }
     }
 }
@@ -97,14 +97,7 @@ TEST(Deviation, agrees_with_the_definition_on_a_long_record) {
             for (const std::int64_t m : {1, 17, 300}) {
                 if (kind != DeviationKind::oadev && m == 300) continue;
                 const auto expected = direct::variance(kind, {values}, m, 0.5L);
-                const std::array factors{m};
-                const auto point =
-                    deviation(record, kind, factors,
-                              {.least_known_ratio = 0.5, .noise = 0, .total_bias = TotalBias::as_computed})
-                        .points.at(0);
-                const double value = static_cast<double>(std::sqrt(expected.variance));
-                EXPECT_EQ(point.terms, expected.terms);
-                EXPECT_NEAR(point.deviation, value, agreement * value) << name_of(kind) << " m " << m;
+                expect_definition(record, kind, m, 0.5, expected);
             }
     }
 }
