@@ -44,20 +44,6 @@ std::vector<study::SwitchLine> filled(const config::Config& c, const Live& from)
     return lines;
 }
 
-TEST(HalfWaveReplay, gives_what_the_control_has_learnt_to_the_bit) {
-    for (const config::Config& c :
-         {gyro(), gyro({"piezo.half_wave_error=0.05", "piezo.hysteresis=0.1", "piezo.adc_noise_v=0.05"}),
-          gyro({"switching.gap_ticks=8", "switching.gap_min_ticks=1", "perimeter.loop=\"digital\""})}) {
-        const Live run = live(c);
-        const auto lines = filled(c, run);
-        ASSERT_GT(lines.size(), 5u);
-        for (std::size_t k = 0; k < lines.size(); ++k) {
-            EXPECT_EQ(lines[k].half_wave_v, run.lines[k].half_wave_v) << k;
-            EXPECT_EQ(lines[k].half_wave_sigma_v, run.lines[k].half_wave_sigma_v) << k;
-        }
-    }
-}
-
 // A gap of one tick closes so far from the centre that the counts of the first half are not valid.
 TEST(HalfWaveReplay, takes_a_detuning_of_a_half_whose_counts_are_not_valid) {
     const config::Config c = gyro({"switching.gap_ticks=1", "switching.interval_s=1.0"});
@@ -83,6 +69,7 @@ TEST(HalfWaveReplay, gives_the_same_for_any_gyro) {
         c.piezo.adc_noise_v = between(0.0, 0.1);
         const Live run = live(c, 4000);
         const auto lines = filled(c, run);
+        ASSERT_GT(lines.size(), 3u);
         for (std::size_t k = 0; k < lines.size(); ++k) {
             if (std::isnan(lines[k].half_wave_v)) continue;  // before the first lock that measured
             EXPECT_EQ(lines[k].half_wave_v, run.lines[k].half_wave_v) << trial << ' ' << k;
