@@ -221,7 +221,7 @@ class TestBadInput:
         self.refused(3, "has `seed = 7`, this one `seed = 8`", tmp_path / "other.toml", "--out", short / "whole.h5")
         self.refused(3, "there is no folder", short / "sweep.toml", "--out", tmp_path / "no" / "r.h5")
         (tmp_path / "moved.toml").write_text((short / "sweep.toml").read_text().replace(
-            "[base.switching]", '[base.motion]\nkind = "file"\npath = "none.csv"\ncolumn = 1\nrate_hz = 100\n[base.switching]'))
+            "base.", 'base.motion = {kind = "file", path = "none.csv", column = 1, rate_hz = 100}\nbase.'))
         self.refused(3, "none.csv", tmp_path / "moved.toml", "--out", tmp_path / "m.h5")
 
     def test_of_a_full_disk_which_loses_nothing(self, long, tmp_path):
