@@ -52,6 +52,13 @@ def is_larger(path, n_bytes=0):
     return path.exists() and path.stat().st_size > n_bytes
 
 
+class Text(str):
+    """A field of a log as it is."""
+
+    def __repr__(self):
+        return str(self)
+
+
 def complaints(result):
     """Lines of stderr that are not warnings."""
     lines = [line for line in result.stderr.splitlines() if line.strip()]

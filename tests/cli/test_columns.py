@@ -2,7 +2,7 @@
 
 import csv
 
-from support import CliTest, body_of, csv_text, quiet_log
+from support import body_of, CliTest, csv_text, quiet_log, Text
 
 COLUMNS = ["half", "bias_sign", "mode", "counts", "loop_closed"]
 LASER = ["gyro.fidelity=laser"]
@@ -13,13 +13,6 @@ RUNS = [("edge_offset_ticks", [*LASER, "gyro.dither=auto"]), ("edge_offset_ticks
         ("edge_offset_ticks", [*LASER, "gyro.dither=random"]), ("fringe", ["gyro.readout=phase"]), ("fringe", ["gyro.readout=phase", *LASER]),
         ("fringe", ["gyro.readout=phase", *JOINT]), ("fringe", ["gyro.readout=phase", *LASER, *JOINT]),
         ("lit", []), ("lit", LASER), ("lit", JOINT), ("lit", [*LASER, *JOINT]), ("span", MISSED)]
-
-
-class Text(str):
-    """A field as it is."""
-
-    def __repr__(self):
-        return str(self)
 
 
 class Columns(CliTest):

@@ -1,4 +1,4 @@
-"""The documentation says what the program says."""
+"""The documentation says what the program says: its tables, its commands, and the numbers, pictures and defaults of docs/physics.md."""
 
 import os
 import re
@@ -58,11 +58,75 @@ class Result(unittest.TestCase):
         self.assert_same((ROOT / "docs" / "result.svg").read_text(), (self.made / "result.svg").read_text(), lambda _: 1.001)
 
 
-class Evidence(unittest.TestCase):
-    def test_every_test_that_a_page_names_exists(self):
-        sources = "".join(path.read_text() for path in (ROOT / "tests").rglob("*_test.cpp"))
-        existing = set(re.findall(r"(?:TEST(?:_F|_P)?|RC_GTEST_PROP)\(\s*(\w+),\s*(\w+)", sources))
-        for page, least in (("paper", 10), ("physics", 20)):
-            named = set(re.findall(r"`([A-Z]\w+)\.(\w+)`", (ROOT / "docs" / f"{page}.md").read_text()))
-            self.assertGreater(len(named), least)
-            self.assertEqual(named - existing, set(), page)
+PAGES = sorted(page for page in (ROOT / "docs").glob("*.md") if "\n```sh\n" in page.read_text())
+BLOCK = re.compile(r"^```(sh|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def words(line):
+    return " ".join(line.split())
+
+
+class Commands(unittest.TestCase):
+    """The commands of the documents run, one after the other, and print what the pages say."""
+
+    def follow(self, page, folder):
+        printed = ""
+        environment = {**os.environ, "PATH": f"{ZLG.parent}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
+        for kind, content in BLOCK.findall(page.read_text()):
+            if kind == "sh":
+                done = subprocess.run(["bash", "-euo", "pipefail", "-c", content], cwd=folder, env=environment,
+                                      capture_output=True, text=True, timeout=60)
+                self.assertEqual(done.returncode, 0, f"{page.name}: {content}{done.stderr}")
+                printed = words(done.stdout)
+            else:
+                for line in content.splitlines():
+                    self.assertIn(words(line), printed, page.name)
+
+    def test_there_are_pages(self):
+        self.assertEqual({page.stem for page in PAGES}, {"calibration", "first_run", "own_gyro", "own_log"})
+
+    def test_every_command_runs_and_prints_what_the_page_says(self):
+        for page in PAGES:
+            with self.subTest(page.name), tempfile.TemporaryDirectory() as folder:
+                self.follow(page, folder)
+
+
+PICTURES = ROOT / "docs" / "pictures"
+PHYSICS = ROOT / "docs" / "physics.md"
+
+SIGNED_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def numbers_of(page):
+    """The table at the end of the page."""
+    return page.partition("## Numbers\n\n")[2]
+
+
+class Physics(unittest.TestCase):
+    def setUp(self):
+        self.text = PHYSICS.read_text()
+
+    def test_every_number_that_links_to_the_table_is_in_it(self):
+        table = set(SIGNED_NUMBER.findall(numbers_of(self.text)))
+        quoted = re.findall(r"\[([\d.e-]+)(?:\s[^\]]*)?\]\(#numbers\)", self.text)
+        self.assertGreater(len(quoted), 10)
+        self.assertEqual(set(quoted) - table, set())
+
+    def test_it_shows_every_picture(self):
+        shown = set(re.findall(r"\(pictures/(\w+\.svg)\)", self.text))
+        self.assertEqual(shown, {p.name for p in PICTURES.glob("*.svg")})
+
+    def test_every_default_that_it_lists_is_that_of_the_program(self):
+        listed = subprocess.run([ZLG, "--keys"], capture_output=True, text=True, check=True).stdout
+        section, defaults = "", {}
+        for line in listed.splitlines():
+            if found := re.match(r"#+ `?\[?(\w+)\]?`?", line):
+                section = found.group(1)
+            elif found := re.match(r"\| `(\w+)` \|", line):
+                defaults[f"{section}.{found.group(1)}"] = [cell.strip() for cell in line.split("|")][2:4]
+        rows = re.findall(r"^\| `(\w+\.\w+)` \| ([^|]*) \| ([^|]*) \|", self.text, re.MULTILINE)
+        self.assertGreater(len(rows), 25)
+        for key, value, unit in rows:
+            with self.subTest(key):
+                self.assertIn(key, defaults)
+                self.assertEqual([unit.strip(), f"`{value.strip()}`"], defaults[key])

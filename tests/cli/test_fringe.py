@@ -4,7 +4,7 @@ import csv
 import math
 import random
 
-from support import AngleLog, CliTest, body_of, csv_text, quiet_log
+from support import AngleLog, body_of, CliTest, csv_text, quiet_log, Text
 
 SCALE = 3.263
 PHASE = ["--set", "gyro.readout=phase"]
@@ -12,13 +12,6 @@ PHASE = ["--set", "gyro.readout=phase"]
 IMPERFECT = ["--set", "photodiodes.offset_cosine=0.1", "--set", "photodiodes.offset_sine=-0.1", "--set", "photodiodes.amplitude_error=0.1",
              "--set", "photodiodes.angle_error_deg=5", "--set", "photodiodes.noise=0.01", "--set", "photodiodes.adc_bits=12"]
 COLUMNS = ["half", "bias_sign", "mode", "counts", "loop_closed", "fringe"]
-
-
-class Text(str):
-    """A field as it is."""
-
-    def __repr__(self):
-        return str(self)
 
 
 def rows_of(path):

@@ -4,7 +4,7 @@ import csv
 import json
 import math
 
-from support import CliTest, csv_text, quiet_log
+from support import AngleLog, CliTest, csv_text, quiet_log
 
 RUN = ["--duration", 40, "--set", "switching.interval_s=5"]
 KNOWN = ["tick", "mode", "miss_lambda", "gap_ticks", "dp_arcsec", "relock_arcsec", "sigma_arcsec"]
@@ -117,3 +117,44 @@ class GapsOfOneTick(CliTest):
         self.assertEqual(set(gaps), {3})
         gaps = self.switches("no-miss", "--set", "perimeter.miss_lambda=0")[0]
         self.assertEqual(min(gaps), 2)
+
+
+SUBSTITUTED = ("extrapolated", "interpolated", "invalid", "correction")
+
+
+class Jerk(CliTest):
+    """A jerk before a switch: what was measured stays as it was measured."""
+
+    def test_a_measured_tick_beside_it_keeps_its_counts(self):
+        for readout in ("count", "phase"):
+            for at_s in (11.9, 11.92, 11.935):
+                with self.subTest(readout=readout, at_s=at_s):
+                    out = self.folder / f"{readout}{at_s}"
+                    self.succeed("run", "--out", out, "--format", "csv", "--duration", 13, "--set", f"gyro.readout={readout}",
+                                 "--set", "switching.interval_s=2", "--set", "faults.kind=overspeed", "--set", f"faults.at_s={at_s}",
+                                 "--set", "faults.duration_s=0.05", "--set", "faults.size=1e6")
+                    log = AngleLog(out / "angles.csv")
+                    measured = [k for k in range(len(log.rows)) if not any(log.has(k, name) for name in SUBSTITUTED)]
+                    self.assertGreater(len(measured), 2500)
+                    # Corrections of the re-lock that are amended are far below one count.
+                    off = [abs(log.final[k] - log.dtheta[k]) for k in measured]
+                    self.assertLess(max(off), 3.263)
+
+
+MAGNETIC = ("gyro.readout=phase", "switching.interval_s=5", "motion.kind=rest", "drift.magnetic_arcsec_s=3", "compensation.relock=joint")
+
+
+class MagneticStep(CliTest):
+    """By phase a switch is known well enough for the step of the magnetic drift to matter, long before the drift is known."""
+
+    def test_sigma_of_a_switch_holds_the_drift_that_is_not_known_yet(self):
+        squares = []
+        for seed in (1, 2):
+            out = self.folder / f"{seed}"
+            self.succeed("run", "--out", out, "--duration", 120, "--seed", seed, *(part for key in MAGNETIC for part in ("--set", key)))
+            for switch in rows_of(out / "switches.csv"):
+                squares.append((float(switch["true_error_arcsec"]) / float(switch["sigma_arcsec"])) ** 2)
+        self.assertEqual(len(squares), 46)
+        # A mean of 46 squares of standard normal numbers: within these with a chance of 0.9999.
+        self.assertLess(sum(squares) / 46, 1.95)
+        self.assertGreater(sum(squares) / 46, 0.39)
