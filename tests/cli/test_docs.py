@@ -1,4 +1,4 @@
-"""The documentation says what the program says: its tables, its commands, and the numbers, pictures and defaults of docs/physics.md."""
+"""The documentation says what the program says: tables, commands, and the numbers and pictures of docs/physics.md."""
 
 import os
 import re

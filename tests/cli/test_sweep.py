@@ -22,7 +22,11 @@ parameter = [
     {keys = ["compensation.relock"], draw = "list", values = ["mean_square", "detuning"]},
     {keys = ["gyro.bias_chi"], draw = "sobol", min = 3.4, max = 3.8},
 ]
-metric = [{name = "configured.switch_error_rms_arcsec", max = 3}, {name = "bridge_quadratic.angle_error_arcsec"}, {name = "switches", min = 1}]
+metric = [
+    {name = "configured.switch_error_rms_arcsec", max = 3},
+    {name = "bridge_quadratic.angle_error_arcsec"},
+    {name = "switches", min = 1},
+]
 """
 
 # Half of these gyros are refused: their light noise is negative.
@@ -243,7 +247,8 @@ class BadInput(SweepTest):
         motion, out, part = (self.folder / name for name in ("motion.csv", "r.h5", "r.h5.part"))
         bytes_before = "".join(f"{k % 7}\n" for k in range(1000)).encode()
         motion.write_bytes(bytes_before)
-        text = SWEEP.replace("base.", f"base.motion = {{kind = 'file', path = '{motion}'}}\nbase.").replace("gyros = 12", "gyros = 2000")
+        text = SWEEP.replace("base.", f"base.motion = {{kind = 'file', path = '{motion}'}}\nbase.")
+        text = text.replace("gyros = 12", "gyros = 600")
         description = self.description(text)
         sweep = subprocess.Popen([ZLG, "sweep", description, "--out", out], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         wait_until(lambda: is_larger(part, 5000), sweep)

@@ -145,7 +145,7 @@ MAGNETIC = ("gyro.readout=phase", "switching.interval_s=5", "motion.kind=rest", 
 
 
 class MagneticStep(CliTest):
-    """By phase a switch is known well enough for the step of the magnetic drift to matter, long before the drift is known."""
+    """By phase a switch is known well enough for the step of the magnetic drift to matter, before that is known."""
 
     def test_sigma_of_a_switch_holds_the_drift_that_is_not_known_yet(self):
         squares = []

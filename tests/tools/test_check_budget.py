@@ -17,7 +17,8 @@ class CheckBudget(TreeTest):
         self.assert_refused(self.run_check("check_budget"), "src/other: 1 lines of code, allowed are 0")
 
     def test_blanks_and_comments_and_what_is_no_code_do_not_count(self):
-        for name, text in (("a.cpp", "// a\n\n/* b\n c */\n  // d\n"), ("b.py", "\n# a\n"), ("c.md", "words\n"), ("build/d.cpp", "int d;\n")):
+        for name, text in (("a.cpp", "// a\n\n/* b\n c */\n  // d\n"), ("b.py", "\n# a\n"), ("c.md", "words\n"),
+                           ("build/d.cpp", "int d;\n")):
             self.write(f"src/other/{name}", text)
         self.assert_good(self.run_check("check_budget"))
 
