@@ -2,9 +2,7 @@
 
 #include <zlg/live/record_source.hpp>
 
-#include <charconv>
 #include <chrono>
-#include <cmath>
 #include <deque>
 #include <thread>
 #include <utility>
@@ -28,20 +26,10 @@ RecordSource::Next next_row(Reader& log, Row& row, bool is_stopped) {
     return Next::nothing;
 }
 
-std::optional<double> said_tick_s(const logs::Settings& settings) {
-    for (const auto& [key, text] : settings) {
-        if (key != "tick_s") continue;
-        double tick_s = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), tick_s);
-        if (error == std::errc{} && end == text.data() + text.size() && tick_s > 0.0 && std::isfinite(tick_s))
-            return tick_s;
-    }
-    return std::nullopt;
-}
-
 class AngleSource final : public RecordSource {
 public:
-    explicit AngleSource(logs::AngleReader log) : log_{std::move(log)}, tick_s_{said_tick_s(log_.header().settings)} {}
+    explicit AngleSource(logs::AngleReader log)
+        : log_{std::move(log)}, tick_s_{logs::said_tick_s(log_.header().settings)} {}
 
     Next next(Record& record) override {
         logs::TimedAngle angle;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <zlg/logs/error.hpp>
 #include <zlg/text/toml_depth.hpp>
 
@@ -55,6 +56,14 @@ void write_settings(TableFile& file, const Settings& settings) {
 const std::string* find_setting(const Settings& settings, const std::string& key) {
     const auto found = std::find_if(settings.rbegin(), settings.rend(), [&](const auto& s) { return s.first == key; });
     return found == settings.rend() ? nullptr : &found->second;
+}
+
+std::optional<double> said_tick_s(const Settings& settings) {
+    for (const auto& [key, text] : settings) {
+        const auto tick_s = key == "tick_s" ? number_in(text) : std::nullopt;
+        if (tick_s && std::isfinite(*tick_s) && *tick_s > 0.0) return tick_s;
+    }
+    return std::nullopt;
 }
 
 std::optional<double> number_in(std::string text) {
