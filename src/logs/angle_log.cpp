@@ -6,7 +6,6 @@
 #include <zlg/logs/log_kind.hpp>
 
 #include "log_io.hpp"
-#include "logged_fingerprint.hpp"
 #include "settings_lines.hpp"
 
 namespace zlg::logs {

@@ -12,8 +12,6 @@
 #include <zlg/logs/unfinished.hpp>
 #include <zlg/text/inputs.hpp>
 
-#include "part_registry.hpp"
-
 namespace zlg::logs {
 
 namespace {
@@ -56,10 +54,6 @@ int rename_part(const std::string& part, const std::string& path, bool force) {
 }
 
 }  // namespace
-
-void fail_io(const char* what, const std::string& path, int error) {
-    throw IoError(fmt::format("cannot {} {}: {}", what, path, std::strerror(error)));
-}
 
 PartFile::PartFile(std::string path, bool force) : path_{std::move(path)}, part_{path_ + ".part"}, force_{force} {
     check_target(path_, force_);

@@ -9,8 +9,7 @@
 #include <zlg/logs/log_kind.hpp>
 
 #include "log_io.hpp"
-#include "logged_fingerprint.hpp"
-#include "raw_timer.hpp"
+#include "settings_lines.hpp"
 
 namespace zlg::logs {
 

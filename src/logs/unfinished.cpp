@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "part_registry.hpp"
+#include "part_file.hpp"
 
 namespace zlg::logs {
 namespace {

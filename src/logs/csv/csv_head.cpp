@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/log_kind.hpp>
 
 #include "settings_lines.hpp"
 #include "text_fields.hpp"
@@ -31,6 +33,12 @@ char separator_of(std::string_view names) {
         most = std::max(most, n);
     }
     return trimmed(names).find_first_of(blanks) == std::string_view::npos && most == 0 ? ',' : found;
+}
+
+std::ptrdiff_t hits(const CsvHead& head, std::initializer_list<std::string_view> known) {
+    return std::count_if(head.names.begin(), head.names.end(), [&](std::string_view name) {
+        return std::find(known.begin(), known.end(), name) != known.end();
+    });
 }
 
 }  // namespace
@@ -64,6 +72,20 @@ CsvHead read_head(LineReader& lines) {
                                       nameless - head.names.begin() + 1, head.names.size()));
     }
     return head;
+}
+
+LogKind recognise_text(const std::string& path) {
+    try {
+        LineReader lines{path};
+        const CsvHead head = read_head(lines);
+        const auto raw = hits(head, {"half", "bias_sign", "counts", "loop_closed"});
+        const auto angle = hits(head, {"tick", "t_s", "dtheta_arcsec", "dtheta_final_arcsec", "sigma_arcsec", "flags"});
+        if (raw >= 2 && raw > angle) return LogKind::raw_csv;
+        if (angle >= 2 && angle > raw) return LogKind::angle_csv;
+    } catch (const FormatError&) {
+        // Not the text of a log: that is the answer, not a failure.
+    }
+    return LogKind::unknown;
 }
 
 }  // namespace zlg::logs

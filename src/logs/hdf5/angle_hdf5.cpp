@@ -53,12 +53,9 @@ private:
 class AngleHdf5Source final : public hdf5::TableSource<AngleTable> {
 public:
     explicit AngleHdf5Source(const std::string& path) : TableSource{path, known_columns<AngleTable>} {
-        if (table_.source().has(truth_path)) {
-            truth_ = hdf5::Column<double>{table_.source(), truth_path};
-            table_.add(truth_);
-        }
+        if (source_.has(truth_path)) add({source_, truth_path}, truth_);
         measure();
-        header_.format_version = hdf5::read_format_version(table_.source());
+        header_.format_version = hdf5::read_format_version(source_);
         header_.settings = settings();
         header_.has_truth = truth_.is_open();
     }
@@ -73,10 +70,9 @@ public:
 private:
     // With the two lines that a CSV log has besides.
     [[nodiscard]] Settings settings() const {
-        const hdf5::Source& source = table_.source();
-        Settings settings = hdf5::read_settings(source, false);
-        const auto legend = source.text_attribute("/angles/flags", "flags");
-        const auto tick_s = source.real_attribute("tick_s");
+        Settings settings = hdf5::read_settings(source_, false);
+        const auto legend = source_.text_attribute("/angles/flags", "flags");
+        const auto tick_s = source_.real_attribute("tick_s");
         if (legend && !find_setting(settings, "flags")) settings.emplace_back("flags", *legend);
         if (tick_s && !find_setting(settings, "tick_s")) settings.emplace_back("tick_s", fmt::format("{}", *tick_s));
         return settings;

@@ -16,19 +16,12 @@ namespace {
 // What a reader must know to make angles of counts stands in the root, too.
 constexpr std::array<const char*, 2> root_reals{"tick_s", "scale_arcsec"};
 
-std::string in_section(const std::string& name) { return "gyro." + name; }
-
-const std::string* find_in_any_section(const Settings& settings, const std::string& name) {
-    const std::string* value = find_setting(settings, in_section(name));
-    return value != nullptr ? value : find_setting(settings, name);
-}
-
 void merge_root(const Source& source, const char* name, bool adds, Settings& settings) {
     const auto value = source.real_attribute(name);
     if (!value) return;
-    const std::string* text = find_in_any_section(settings, name);
+    const std::string* text = find_of_gyro(settings, name);
     if (text == nullptr) {
-        if (adds) settings.emplace_back(in_section(name), fmt::format("{}", *value));
+        if (adds) settings.emplace_back(fmt::format("gyro.{}", name), fmt::format("{}", *value));
         return;
     }
     const auto configured = number_in(*text);
@@ -41,11 +34,11 @@ void merge_root(const Source& source, const char* name, bool adds, Settings& set
 void add_settings(TableWriter& table, const Settings& settings, const FormatVersion& version,
                   std::optional<double> tick_s) {
     table.add_text("/config", settings_to_toml(settings));
-    if (version) table.set_integer("format_version", *version);
+    if (version) table.set_integer(version_setting, *version);
     for (const char* name : root_reals) {
         if (tick_s && name == std::string_view{"tick_s"}) {
             table.set_real(name, *tick_s);
-        } else if (const std::string* text = find_in_any_section(settings, name)) {
+        } else if (const std::string* text = find_of_gyro(settings, name)) {
             if (const auto value = number_in(*text)) table.set_real(name, *value);
         }
     }
@@ -68,7 +61,7 @@ void add_angle_settings(TableWriter& table, Settings settings, const FormatVersi
 }
 
 FormatVersion read_format_version(const Source& source) {
-    const auto version = source.real_attribute("format_version");
+    const auto version = source.real_attribute(version_setting);
     if (!version) return std::nullopt;
     return checked_format_version(*version, source.path());
 }
@@ -79,7 +72,7 @@ Settings read_settings(const Source& source, bool adds_tick) {
     require_shallow_keys(settings, source.path() + ", /config");
     // What a zlg before format_version 2 of CSV logs took for notes; the attributes say it.
     std::erase_if(settings, [](const auto& setting) {
-        return setting.first == "format_version" || setting.first == "fingerprint";
+        return setting.first == version_setting || setting.first == "fingerprint";
     });
     for (const char* name : root_reals) {
         merge_root(source, name, adds_tick || name != std::string_view{"tick_s"}, settings);

@@ -11,7 +11,7 @@
 #include <zlg/text/escape.hpp>
 #include <zlg/text/inputs.hpp>
 
-#include "hdf5_input.hpp"
+#include "hdf5_driver.hpp"
 #include "signature.hpp"
 
 namespace zlg::logs::hdf5 {

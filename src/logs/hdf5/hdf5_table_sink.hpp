@@ -5,7 +5,7 @@
 
 #include "hdf5_table_writer.hpp"
 #include "log_io.hpp"
-#include "logged_fingerprint.hpp"
+#include "settings_lines.hpp"
 
 namespace zlg::logs::hdf5 {
 

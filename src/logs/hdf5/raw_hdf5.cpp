@@ -6,7 +6,7 @@
 #include "hdf5_settings.hpp"
 #include "hdf5_table_sink.hpp"
 #include "hdf5_table_source.hpp"
-#include "raw_timer.hpp"
+#include "settings_lines.hpp"
 
 namespace zlg::logs {
 
@@ -70,15 +70,14 @@ private:
 class RawHdf5Source final : public hdf5::TableSource<RawTable> {
 public:
     explicit RawHdf5Source(const std::string& path) : TableSource{path, all_columns} {
-        table_.open(logs::light, light_, core::max_light_samples);
-        table_.open(logs::light_b, light_b_, core::max_light_samples);
+        open(logs::light, "light", light_, core::max_light_samples);
+        open(logs::light_b, "light_b", light_b_, core::max_light_samples);
         measure();
-        header_.format_version = hdf5::read_format_version(table_.source());
-        header_.settings = hdf5::read_settings(table_.source());
-        note_columns(table_, header_);
-        if (header_.has_edge_offset) {
-            header_.timer_hz = take_timer_hz(header_.settings, table_.source().real_attribute(timer_setting), path);
-        }
+        header_.format_version = hdf5::read_format_version(source_);
+        header_.settings = hdf5::read_settings(source_);
+        note_columns(*this, header_);
+        if (header_.has_edge_offset)
+            header_.timer_hz = take_timer_hz(header_.settings, source_.real_attribute(timer_setting), path);
         header_.light_samples = light_.is_open() ? static_cast<int>(light_.width()) : 0;
         header_.has_light_b = light_b_.is_open();
         require_matching_beams(path);
