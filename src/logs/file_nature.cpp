@@ -13,7 +13,6 @@
 #include <zlg/logs/error.hpp>
 
 #include "file_descriptor.hpp"
-#include "signature.hpp"
 
 namespace zlg::logs {
 

@@ -8,8 +8,8 @@
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_layout.hpp>
 
+#include <zlg/logs/file_nature.hpp>
 #include "hdf5/hdf5_source.hpp"
-#include "signature.hpp"
 
 namespace zlg::logs {
 

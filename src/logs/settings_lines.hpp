@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <zlg/logs/format_version.hpp>
 #include <zlg/logs/settings.hpp>
 #include <zlg/logs/table_file.hpp>
 
