@@ -54,7 +54,7 @@ constexpr std::tuple table{
     control(0x0203, ro, "loop.range_max_v",
             [](auto& c) { return std::tie(c.loop.range.max, c.mode_switch.range.max, c.half_wave.range.max); }),
     control(0x0204, rw, "loop.range_margin_v",
-            [](auto& c) { return std::tie(c.loop.range.margin, c.mode_switch.range.margin, c.half_wave.range.margin); }),
+        [](auto& c) { return std::tie(c.loop.range.margin, c.mode_switch.range.margin, c.half_wave.range.margin); }),
     control(0x0205, ro, "loop.half_wave_v", PLACE(loop.half_wave)),
     control(0x0206, ro, "loop.half_period_s", PLACE(loop.half_period)),
     control(0x0207, rw, "loop.time_constant_s", PLACE(loop.time_constant)),

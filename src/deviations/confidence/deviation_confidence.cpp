@@ -15,8 +15,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <zlg/deviations/series.hpp>
 
-#include "variance_parts.hpp"
 #include "difference_covariance.hpp"
+#include "variance_parts.hpp"
 
 namespace zlg::deviations {
 namespace {
