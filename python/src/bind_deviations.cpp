@@ -74,8 +74,7 @@ StreamConfig stream_config(const SeriesKind& what, const std::vector<std::string
 DeviationStream stream_of_log(const std::string& path, const std::vector<std::string>& kinds,
                               const std::vector<std::int64_t>& factors, std::int64_t window, double least_known_ratio,
                               bool final_angles) {
-    const AngleSamples samples =
-        angle_samples(path, final_angles ? logs::AngleColumn::dtheta_final : logs::AngleColumn::dtheta);
+    const AngleSamples samples = angle_samples(path, final_angles ? AngleColumn::dtheta_final : AngleColumn::dtheta);
     DeviationStream stream{stream_config(samples.what, kinds, factors, window, least_known_ratio)};
     read_into(stream, [&](std::span<double> values, std::span<std::uint8_t> valid) {
         look_for_signals();

@@ -10,7 +10,6 @@
 #include <zlg/numeric/estimate.hpp>
 
 #include "pieces.hpp"
-#include "temperature_span.hpp"
 
 namespace zlg::calibration {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <zlg/numeric/cluster_fit.hpp>
 
-#include "relock_view.hpp"
+#include "relock_borders.hpp"
 
 namespace zlg::calibration {
 namespace {

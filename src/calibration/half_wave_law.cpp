@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
-#include "temperature_span.hpp"
+#include "pieces.hpp"
 
 namespace zlg::calibration {
 namespace {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include <zlg/calibration/lab_log.hpp>
 #include <zlg/deviations/series.hpp>
 
 namespace zlg::calibration {
@@ -17,18 +18,13 @@ namespace {
 constexpr double many = 1e9;       // degrees of freedom
 constexpr std::size_t parts = 10;  // of a stage, whose means show how certain that of all is
 
-struct Mean {
-    double value = 0.0, n = 0.0;
-    void add(double x) { n += 1.0, value += (x - value) / n; }
-};
-
 std::optional<TableStage> stage_of(std::span<const double> input, std::span<const double> output,
                                    const RateTableOptions& options) {
     const auto settled = static_cast<std::size_t>(std::max<std::int64_t>(0, options.settling_samples));
     if (input.size() <= settled) return std::nullopt;
     const std::size_t n = input.size() - settled;
-    Mean in, out;
-    std::vector<Mean> part(parts);
+    Moments in, out;
+    std::vector<Moments> part(parts);
     for (std::size_t k = 0; k < n; ++k) {
         const double x = input[settled + k], y = output[settled + k];
         if (!std::isfinite(x) || !std::isfinite(y)) continue;
@@ -36,15 +32,15 @@ std::optional<TableStage> stage_of(std::span<const double> input, std::span<cons
         out.add(y);
         part[k * parts / n].add(y);
     }
-    if (out.n < static_cast<double>(std::max<std::int64_t>(options.min_samples, 2))) return std::nullopt;
-    Mean squares;
-    for (const Mean& p : part)
-        if (p.n > 0.0) squares.add((p.value - out.value) * (p.value - out.value));
-    const double sigma = squares.n > 1.0 ? std::sqrt(squares.value / (squares.n - 1.0)) : 0.0;
-    return TableStage{.input_arcsec_s = in.value + options.earth_arcsec_s,
-                      .output = out.value,
+    if (out.n < std::max<std::int64_t>(options.min_samples, 2)) return std::nullopt;
+    Moments squares;
+    for (const Moments& p : part)
+        if (p.n > 0) squares.add((p.mean - out.mean) * (p.mean - out.mean));
+    const double sigma = squares.n > 1 ? std::sqrt(squares.mean / static_cast<double>(squares.n - 1)) : 0.0;
+    return TableStage{.input_arcsec_s = in.mean + options.earth_arcsec_s,
+                      .output = out.mean,
                       .output_sigma = sigma,
-                      .n_samples = static_cast<std::int64_t>(out.n)};
+                      .n_samples = out.n};
 }
 
 std::vector<TableStage> stages_of(std::span<const double> input, std::span<const double> output,

@@ -1,4 +1,58 @@
 #pragma once
+// The re-locks of all logs that can be compared with each other, and how long their transient lasts.
+
+#include <cmath>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <zlg/calibration/bias_law.hpp>
+#include <zlg/calibration/lab_log.hpp>
+#include <zlg/numeric/cluster_fit.hpp>
+
+namespace zlg::calibration {
+
+struct RelockView {
+    const LabLog* log;
+    const Relock* relock;
+    double counts_per_half = 0.0;  // of the settled rest of the segment: rotation and drift
+    bool with_phase = false;       // of this re-lock, as of all: the places within the count are known
+};
+
+inline double square(double x) { return x * x; }
+
+// A half as two equal groups of samples.
+struct Groups {
+    double above;
+    double below;
+
+    Groups(const core::HalfRecord& r, double noise_lambda2) {
+        const double spread2 = r.detuning_sq_lambda2 - square(r.detuning_lambda) - noise_lambda2;
+        const double spread = std::sqrt(std::fmax(spread2, 0.0));
+        above = r.detuning_lambda + spread;
+        below = r.detuning_lambda - spread;
+    }
+    [[nodiscard]] double farthest() const { return std::fmax(std::abs(above), std::abs(below)); }
+};
+
+struct Relocks {
+    std::vector<RelockView> views;
+    std::size_t transient_halves = 0;   // until the mean excess of the mean square is below 1 % of its highest
+    double first_square_lambda2 = 0.0;  // mean excess in the first half
+    double steepest_fall = 1.0;         // least ratio of the mean excess of a half to that before
+
+    // Re-locks with mean squares in every half, and a settled rest that is four times as long as the transient kept.
+    explicit Relocks(std::span<const LabLog> logs);
+
+    [[nodiscard]] bool has_detunings() const;
+};
+
+inline constexpr double rounding_counts2 = 1.0 / 12.0;  // of one border
+// By phase: what the settled counts leave of the rotation over a re-lock, and the random walk, of a gyro at rest.
+inline constexpr double place_counts2 = 1e-5;
+
 // The counts after a re-lock at the borders of its halves, against what each law would make of them.
 //
 //   y_k = sum of the counts before border k, less rotation and an undisturbed bias
@@ -7,23 +61,6 @@
 // With the places within the count, where all re-locks have them. The counter rounds at each border once, so that the
 // rows are of independent errors. Borders after the transient make one row for each of the two readings that a settled
 // counter repeats. The last column is the parity of the border: an error of f shows there.
-
-#include <functional>
-#include <vector>
-
-#include <Eigen/Core>
-
-#include <zlg/calibration/bias_law.hpp>
-#include <zlg/numeric/cluster_fit.hpp>
-
-#include "relock_view.hpp"
-
-namespace zlg::calibration {
-
-inline constexpr double rounding_counts2 = 1.0 / 12.0;  // of one border
-// By phase: what the settled counts leave of the rotation over a re-lock, and the random walk, of a gyro at rest.
-inline constexpr double place_counts2 = 1e-5;
-
 struct RelockBorders {
     Eigen::VectorXd y;
     Eigen::MatrixXd x;

@@ -6,8 +6,7 @@
 #include <zlg/deviations/noise_identification.hpp>
 
 #include "deviation_points.hpp"
-#include "sums/averaged_sums.hpp"
-#include "sums/total_sums.hpp"
+#include "sums/difference_sums.hpp"
 
 namespace zlg::deviations {
 namespace {

@@ -1,6 +1,5 @@
 #include <zlg/deviations/noise_identification.hpp>
 
-#include "lag_one.hpp"
 #include "noise_means.hpp"
 
 namespace zlg::deviations {

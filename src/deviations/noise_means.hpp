@@ -1,14 +1,48 @@
 #pragma once
-// Means over m entries, side by side, as noise identification takes them from a record or a stream.
+// The exponent of noise from means, side by side, of a record or a stream.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
-#include "lag_one.hpp"
 #include "sums/difference_sums.hpp"
 
 namespace zlg::deviations {
 
+// Of fewer values nothing is said.
+inline constexpr std::int64_t min_means = 30;
+
+// Moments of a sequence and of its first and second differences: all that the lag-1 autocorrelation needs.
+class LagOne {
+public:
+    // Not finite: missing; what follows is no neighbour of what came before.
+    void add(double value);
+
+    [[nodiscard]] std::int64_t count() const { return level_[0].n; }
+
+    // Of a sequence with spectrum |2 sin(pi f)|^e, e itself.
+    //
+    //   r1 = lag-1 autocorrelation, delta = r1/(1 + r1); while delta >= 1/4 the sequence is differenced; e = -2 (delta
+    //   + d)
+    //
+    // absent  fewer than 30 values, or constant.
+    // source  W. Riley, C. Greenhall, "Power law noise identification using the lag 1 autocorrelation", EFTF 2004.
+    [[nodiscard]] std::optional<double> exponent() const;
+
+private:
+    struct Level {
+        std::int64_t n = 0, pairs = 0;
+        double origin = 0.0, sum = 0.0, square = 0.0, product = 0.0, head = 0.0, tail = 0.0;
+        double previous = 0.0;
+        bool has_previous = false;
+    };
+    void add_to(std::size_t order, double value);
+
+    std::array<Level, 3> level_;
+};
+
+// Means over m entries, side by side, as noise identification takes them from a record or a stream.
 class NoiseMeans {
 public:
     // m  entries of the array.

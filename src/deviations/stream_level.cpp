@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <bit>
 
-#include "sums/averaged_sums.hpp"
+#include "sums/difference_sums.hpp"
 
 namespace zlg::deviations {
 namespace {
 
 constexpr std::int64_t kept_windows = 3;  // a term spans up to three
-constexpr std::int64_t run_means = 256;
+constexpr std::int64_t means_a_run = 256;
 constexpr std::uint64_t runs_before_thinning = 16;
 
 RecordView view_of(const RecentEntries& entries, std::int64_t stride, const StreamGaps& gaps) {
@@ -45,9 +45,9 @@ void take(NoiseTrack& track, const RecentEntries& entries, const RecordView& vie
     const std::int64_t m = track.means.m();
     for (; track.next + m < entries.first() + entries.n(); track.next += m) {
         const std::int64_t mean = track.next / m;
-        if (is_used(mean / run_means))
+        if (is_used(mean / means_a_run))
             track.means.add(view, track.next - entries.first());
-        else if (mean % run_means == 0)
+        else if (mean % means_a_run == 0)
             track.means.interrupt();
     }
 }

@@ -15,8 +15,7 @@
 #include <zlg/core/health.hpp>
 #include <zlg/deviations/deviation_stream.hpp>
 
-#include "gap_view.hpp"
-#include "thinned.hpp"
+#include "kept_records.hpp"
 
 namespace zlg::live {
 namespace {

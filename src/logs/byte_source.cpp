@@ -20,12 +20,10 @@
 #include <zlg/logs/byte_source.hpp>
 #include <zlg/logs/error.hpp>
 
+#include "file_descriptor.hpp"
+
 namespace zlg::logs {
 namespace {
-
-[[noreturn]] void fail(const char* what, const std::string& name, int error) {
-    throw IoError{fmt::format("cannot {} {}: {}", what, name, std::strerror(error))};
-}
 
 speed_t speed_of(int baud) {
     constexpr std::array<std::pair<int, speed_t>, 14> speeds{{{9600, B9600},
@@ -53,31 +51,23 @@ speed_t speed_of(int baud) {
 // Bytes as they come: no line editing, no flow control, no signals.
 void make_raw(int fd, const std::string& name, speed_t speed) {
     termios settings{};
-    if (::tcgetattr(fd, &settings) != 0) fail("set up", name, errno);
+    if (::tcgetattr(fd, &settings) != 0) fail_io("set up", name, errno);
     ::cfmakeraw(&settings);
     settings.c_cflag |= static_cast<tcflag_t>(CLOCAL | CREAD);
     settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
     settings.c_cc[VMIN] = 1;
     settings.c_cc[VTIME] = 0;
-    if (::cfsetspeed(&settings, speed) != 0 || ::tcsetattr(fd, TCSANOW, &settings) != 0) fail("set up", name, errno);
+    if (::cfsetspeed(&settings, speed) != 0 || ::tcsetattr(fd, TCSANOW, &settings) != 0) fail_io("set up", name, errno);
 }
 
-int open_path(const std::string& path, speed_t speed) {
+FileDescriptor open_path(const std::string& path, speed_t speed) {
     // Not to wait for the other end of a pipe, or for the carrier of a modem.
-    const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (fd < 0) fail("open", path, errno);
+    FileDescriptor file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)};
+    if (!file.is_open()) fail_io("open", path, errno);
     struct stat what {};
-    if (::fstat(fd, &what) == 0 && S_ISDIR(what.st_mode)) {
-        ::close(fd);
-        fail("read", path, EISDIR);
-    }
-    try {
-        if (::isatty(fd) != 0) make_raw(fd, path, speed);
-    } catch (...) {
-        ::close(fd);
-        throw;
-    }
-    return fd;
+    if (::fstat(file.get(), &what) == 0 && S_ISDIR(what.st_mode)) fail_io("read", path, EISDIR);
+    if (::isatty(file.get()) != 0) make_raw(file.get(), path, speed);
+    return file;
 }
 
 struct TcpAddress {
@@ -99,7 +89,7 @@ TcpAddress tcp_address(const std::string& name) {
     return parts;
 }
 
-int connect_tcp(const std::string& name) {
+FileDescriptor connect_tcp(const std::string& name) {
     const TcpAddress address = tcp_address(name);
     addrinfo wanted{};
     wanted.ai_socktype = SOCK_STREAM;
@@ -109,15 +99,14 @@ int connect_tcp(const std::string& name) {
     const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses{found, ::freeaddrinfo};
     int error = 0;
     for (const addrinfo* a = found; a != nullptr; a = a->ai_next) {
-        const int fd = ::socket(a->ai_family, a->ai_socktype | SOCK_CLOEXEC, a->ai_protocol);
-        if (fd >= 0 && ::connect(fd, a->ai_addr, a->ai_addrlen) == 0) return fd;
+        FileDescriptor socket{::socket(a->ai_family, a->ai_socktype | SOCK_CLOEXEC, a->ai_protocol)};
+        if (socket.is_open() && ::connect(socket.get(), a->ai_addr, a->ai_addrlen) == 0) return socket;
         error = errno;
-        if (fd >= 0) ::close(fd);
     }
-    fail("connect to", name, error);
+    fail_io("connect to", name, error);
 }
 
-int connect_unix(const std::string& name) {
+FileDescriptor connect_unix(const std::string& name) {
     const std::string path = name.substr(5);
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -125,16 +114,14 @@ int connect_unix(const std::string& name) {
         throw SourceError{
             fmt::format("{}: allowed is unix:PATH, a path of up to {} bytes", name, sizeof address.sun_path - 1)};
     std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
-    const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    if (fd < 0) fail("connect to", name, errno);
-    if (::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return fd;
-    const int error = errno;
-    ::close(fd);
-    fail("connect to", name, error);
+    FileDescriptor socket{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+    if (socket.is_open() && ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+        return socket;
+    fail_io("connect to", name, errno);
 }
 
-int opened(const std::string& source, speed_t speed) {
-    if (source == "-") return STDIN_FILENO;
+FileDescriptor opened(const std::string& source, speed_t speed) {
+    if (source == "-") return FileDescriptor{STDIN_FILENO};
     if (source.starts_with("tcp:")) return connect_tcp(source);
     if (source.starts_with("unix:")) return connect_unix(source);
     return open_path(source, speed);
@@ -143,7 +130,9 @@ int opened(const std::string& source, speed_t speed) {
 }  // namespace
 
 ByteSource::ByteSource(const std::string& source, int baud)
-    : name_{source == "-" ? "standard input" : source}, fd_{opened(source, speed_of(baud))}, owned_{source != "-"} {}
+    : name_{source == "-" ? "standard input" : source},
+      fd_{opened(source, speed_of(baud)).release()},
+      owned_{source != "-"} {}
 
 ByteSource::~ByteSource() {
     if (owned_) ::close(fd_);
@@ -152,7 +141,7 @@ ByteSource::~ByteSource() {
 ByteSource::Read ByteSource::read(std::span<std::uint8_t> buffer, std::size_t& n, int patience_ms) {
     pollfd ready{.fd = fd_, .events = POLLIN, .revents = 0};
     const int polled = ::poll(&ready, 1, patience_ms);
-    if (polled < 0 && errno != EINTR) fail("read", name_, errno);
+    if (polled < 0 && errno != EINTR) fail_io("read", name_, errno);
     if (polled <= 0) return Read::nothing;
     const ssize_t got = ::read(fd_, buffer.data(), buffer.size());
     if (got > 0) {
@@ -164,8 +153,7 @@ ByteSource::Read ByteSource::read(std::span<std::uint8_t> buffer, std::size_t& n
     // The other end of a terminal or a socket is gone.
     const int error = errno;
     if ((error == EIO && ::isatty(fd_) != 0) || error == ECONNRESET) return Read::end;
-    errno = error;
-    fail("read", name_, errno);
+    fail_io("read", name_, error);
 }
 
 }  // namespace zlg::logs

@@ -1,5 +1,5 @@
 #pragma once
-// An open file that closes itself.
+// An open file that closes itself, and what is done with one.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <zlg/logs/error.hpp>
 
@@ -36,11 +37,33 @@ private:
     int fd_ = -1;
 };
 
+// errors  IoError: `cannot WHAT PATH: ` and what the system says of `error`.
+[[noreturn]] inline void fail_io(const char* what, const std::string& path, int error) {
+    throw IoError(fmt::format("cannot {} {}: {}", what, path, std::strerror(error)));
+}
+
 // errors  IoError: no such file, no permission.
 inline FileDescriptor open_to_read(const std::string& path) {
     FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (!file.is_open()) throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
+    if (!file.is_open()) fail_io("open", path, errno);
     return file;
+}
+
+struct Written {
+    std::size_t n = 0;  // bytes
+    int error = 0;      // the errno of what failed behind them; 0: nothing has
+};
+
+inline Written write_all(int fd, std::string_view bytes, std::size_t at) {
+    Written done;
+    while (done.n < bytes.size() && done.error == 0) {
+        const ssize_t n = ::pwrite(fd, bytes.data() + done.n, bytes.size() - done.n, static_cast<off_t>(at + done.n));
+        if (n > 0)
+            done.n += static_cast<std::size_t>(n);
+        else if (n == 0 || errno != EINTR)
+            done.error = n < 0 ? errno : ENOSPC;
+    }
+    return done;
 }
 
 }  // namespace zlg::logs

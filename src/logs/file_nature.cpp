@@ -13,7 +13,6 @@
 #include <zlg/logs/error.hpp>
 
 #include "file_descriptor.hpp"
-#include "signature.hpp"
 
 namespace zlg::logs {
 
@@ -74,7 +73,7 @@ Head head_of(int file, const std::string& path) {
     struct stat status {};
     if (::fstat(file, &status) == 0) head.size = status.st_size;
     const ssize_t n = ::pread(file, head.bytes.data(), head.bytes.size(), 0);
-    if (n < 0) throw IoError(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+    if (n < 0) fail_io("read", path, errno);
     head.n = static_cast<std::size_t>(n);
     return head;
 }
@@ -133,7 +132,7 @@ long long hdf5_offset(int open_file, const std::string& path) {
     for (long long offset = 0; offset < status.st_size; offset = offset == 0 ? 512 : 2 * offset) {
         std::array<char, hdf5_signature.size()> start{};
         const ssize_t n = ::pread(open_file, start.data(), start.size(), offset);
-        if (n < 0) throw IoError(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+        if (n < 0) fail_io("read", path, errno);
         if (std::string_view{start.data(), static_cast<std::size_t>(n)} == hdf5_signature) return offset;
     }
     return -1;

@@ -12,8 +12,6 @@
 #include <zlg/logs/file_nature.hpp>
 #include <zlg/logs/raw_layout.hpp>
 
-#include "signature.hpp"
-
 namespace zlg::logs {
 
 template <class Table>

@@ -2,15 +2,14 @@
 #include <sys/stat.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <zlg/logs/angle_layout.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_layout.hpp>
 
+#include <zlg/logs/file_nature.hpp>
 #include "hdf5/hdf5_source.hpp"
-#include "signature.hpp"
 
 namespace zlg::logs {
 
@@ -27,9 +26,7 @@ LogKind kind_of_hdf5(const std::string& path) {
 
 void require_regular_file(const std::string& path) {
     struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) {
-        throw IoError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
-    }
+    if (::stat(path.c_str(), &status) != 0) fail_io("open", path, errno);
     if (S_ISDIR(status.st_mode)) throw IoError(fmt::format("cannot read {}: it is a folder", path));
     if (!S_ISREG(status.st_mode)) throw IoError(fmt::format("cannot read {}: it is no regular file", path));
 }

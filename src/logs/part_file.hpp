@@ -48,7 +48,4 @@ private:
     FileDescriptor file_;
 };
 
-// errors  IoError: `cannot WHAT PATH: ` and what the system says of `error`.
-[[noreturn]] void fail_io(const char* what, const std::string& path, int error);
-
 }  // namespace zlg::logs

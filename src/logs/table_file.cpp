@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <cerrno>
 #include <limits>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/table_file.hpp>
@@ -34,16 +33,11 @@ struct TableFile::State {
 
     // What was lost once cannot be completed: nothing appears under the name any more.
     void flush() {
-        std::string_view left{buffer};
-        while (!left.empty()) {
-            const ssize_t n = ::write(file.fd(), left.data(), left.size());
-            if (n < 0 && errno == EINTR) continue;
-            if (n < 0) fail(errno);
-            const std::size_t line_end = left.substr(0, static_cast<std::size_t>(n)).rfind('\n');
-            if (line_end != std::string_view::npos) whole_bytes = written_bytes + line_end + 1;
-            written_bytes += static_cast<std::size_t>(n);
-            left.remove_prefix(static_cast<std::size_t>(n));
-        }
+        const Written written = write_all(file.fd(), buffer, written_bytes);
+        const std::size_t line_end = std::string_view{buffer}.substr(0, written.n).rfind('\n');
+        if (line_end != std::string_view::npos) whole_bytes = written_bytes + line_end + 1;
+        written_bytes += written.n;
+        if (written.error != 0) fail(written.error);
         buffer.clear();
         if (has_rows_to_keep()) file.keep_if_abandoned();
     }
@@ -56,13 +50,7 @@ struct TableFile::State {
     // What is still in the buffer goes to its place in the file first.
     void overwrite(std::size_t at, std::string_view text) {
         flush();
-        while (!text.empty()) {
-            const ssize_t n = ::pwrite(file.fd(), text.data(), text.size(), static_cast<off_t>(at));
-            if (n < 0 && errno == EINTR) continue;
-            if (n < 0) fail(errno);
-            at += static_cast<std::size_t>(n);
-            text.remove_prefix(static_cast<std::size_t>(n));
-        }
+        if (const int error = write_all(file.fd(), text, at).error; error != 0) fail(error);
     }
 
     [[nodiscard]] bool has_rows_to_keep() const { return whole_bytes > keep_from; }

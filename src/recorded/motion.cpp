@@ -1,10 +1,67 @@
 #include <zlg/recorded/motion.hpp>
 
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/text_columns.hpp>
+#include <zlg/logs/time_check.hpp>
+#include <zlg/recorded/text_layout.hpp>
 #include <zlg/rig/wiring.hpp>
 
-#include "motion_file.hpp"
-
 namespace zlg::recorded {
+namespace {
+
+using config::ConfigError;
+
+// Two days of 200 rows a second, a quarter of a gigabyte; and no device that never ends.
+constexpr std::size_t max_rows = std::size_t{1} << 25;
+constexpr std::int64_t max_bytes = std::int64_t{1} << 30;
+
+logs::TextLayout layout_of(const config::Motion& m) {
+    logs::TextLayout layout = text_layout(m);
+    layout.columns = {m.column.empty() ? "1" : m.column};
+    layout.max_rows = max_rows;
+    layout.max_bytes = max_bytes;
+    return layout;
+}
+
+void refuse_times(const config::Motion& m, const logs::TextLayout& layout, const logs::TextTable& table) {
+    const std::string mistaken = logs::mistaken_times(
+        table, m.path, layout,
+        {.column_is_said = !m.column.empty(), .may_rise = false, .noun = "motion", .rate_hz = std::nullopt});
+    if (!mistaken.empty()) throw ConfigError{mistaken};
+    const logs::TimeCheck check = logs::check_times(table, m.path, layout, m.rate_hz);
+    if (!check.contradiction.empty()) throw ConfigError{check.contradiction};
+    // A twin has nobody to warn.
+    if (!check.presumption.empty())
+        throw ConfigError{fmt::format("{}; motion.time_column = 0 leaves it out", check.presumption)};
+    if (check.times && check.times->n_missing > 0)
+        throw logs::FormatError{logs::missing_in_words(table, m.path, *check.times) + "; a motion has no holes"};
+}
+
+twin::Motion motion_of_file(const config::Motion& m) {
+    const logs::TextLayout layout = layout_of(m);
+    logs::TextTable table = logs::read_text_table(m.path, layout);
+    refuse_times(m, layout, table);
+    std::vector<double>& values = table.columns.front().values;
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        const double read = values[row];
+        values[row] = rig::motion_increment_arcsec(m, read);
+        if (!std::isfinite(values[row]))
+            throw logs::FormatError{fmt::format("{}, {}: {} in row {}, allowed is a finite number", m.path,
+                                                logs::described(table.columns.front()), read, row + 1)};
+    }
+    return twin::Motion::from_increments(std::move(values), m.rate_hz);
+}
+
+}  // namespace
 
 twin::Motion motion(const config::Config& config) {
     return config.motion.kind == config::MotionKind::file ? motion_of_file(config.motion) : rig::motion(config);

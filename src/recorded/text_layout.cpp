@@ -3,43 +3,17 @@
 namespace zlg::recorded {
 namespace {
 
-logs::TextSeparator separator_of(config::TextSeparator separator) {
-    switch (separator) {
-        case config::TextSeparator::automatic:
-            break;
-        case config::TextSeparator::space:
-            return logs::TextSeparator::blanks;
-        case config::TextSeparator::tab:
-            return logs::TextSeparator::tab;
-        case config::TextSeparator::semicolon:
-            return logs::TextSeparator::semicolon;
-        case config::TextSeparator::comma:
-            return logs::TextSeparator::comma;
-        case config::TextSeparator::bar:
-            return logs::TextSeparator::bar;
-    }
-    return logs::TextSeparator::automatic;
-}
-
-logs::TextMark mark_of(config::DecimalMark mark) {
-    switch (mark) {
-        case config::DecimalMark::automatic:
-            break;
-        case config::DecimalMark::point:
-            return logs::TextMark::point;
-        case config::DecimalMark::comma:
-            return logs::TextMark::comma;
-    }
-    return logs::TextMark::automatic;
-}
+// The words of the configuration are those of the reader, in their order.
+static_assert(static_cast<int>(config::TextSeparator::bar) == static_cast<int>(logs::TextSeparator::bar) &&
+              static_cast<int>(config::DecimalMark::comma) == static_cast<int>(logs::TextMark::comma));
 
 template <class Section>
 logs::TextLayout layout_of(const Section& section, const char* name) {
     logs::TextLayout layout;
     layout.comment = section.comment;
     layout.skip_lines = section.skip_lines;
-    layout.separator = separator_of(section.separator);
-    layout.mark = mark_of(section.decimal);
+    layout.separator = static_cast<logs::TextSeparator>(section.separator);
+    layout.mark = static_cast<logs::TextMark>(section.decimal);
     layout.time_column = section.time_column;
     layout.section = name;
     return layout;

@@ -8,8 +8,6 @@
 #include <zlg/text/toml_text.hpp>
 #include <zlg/text/whole_file.hpp>
 
-#include "draw_names.hpp"
-
 namespace zlg::sweep {
 namespace {
 

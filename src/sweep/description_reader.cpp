@@ -14,7 +14,6 @@
 #include <zlg/text/toml_text.hpp>
 
 #include "description_table.hpp"
-#include "draw_names.hpp"
 
 namespace zlg::sweep {
 namespace {

@@ -77,7 +77,7 @@ Description with_motion_checksums(Description description) {
 }
 
 MotionWatch::MotionWatch(const Description& description) {
-    for (const auto& [path, checksum] : description.motion_checksums) files_.push_back({path, stamp_of(path)});
+    for (const auto& [path, checksum] : description.motion_checksums) files_[path] = stamp_of(path);
 }
 
 void MotionWatch::require_unchanged() const {
@@ -89,11 +89,8 @@ void MotionWatch::require_unchanged() const {
 MotionWatch::Stamp MotionWatch::stamp_of(const std::string& path) {
     struct stat found {};
     if (::stat(path.c_str(), &found) != 0) return {};
-    return {.device = found.st_dev,
-            .inode = found.st_ino,
-            .size = found.st_size,
-            .seconds = found.st_mtim.tv_sec,
-            .nanoseconds = found.st_mtim.tv_nsec};
+    return {static_cast<std::int64_t>(found.st_dev), static_cast<std::int64_t>(found.st_ino), found.st_size,
+            found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
 }
 
 }  // namespace zlg::sweep

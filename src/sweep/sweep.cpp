@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <iterator>
 #include <mutex>
 #include <optional>
 
@@ -70,29 +71,6 @@ std::vector<std::int64_t> missing(const Task& task, const Rows& rows) {
     return gyros;
 }
 
-// Records the rows as they come, from any thread.
-class Record {
-public:
-    Record(const Task& task, Checkpoint& checkpoint, Rows& rows, std::size_t n_asked)
-        : task_{task}, checkpoint_{checkpoint}, rows_{rows}, n_asked_{static_cast<std::int64_t>(n_asked)} {}
-
-    void take(Row row) {
-        const std::scoped_lock one_at_a_time{recording_};
-        checkpoint_.append(row);
-        rows_.emplace(row.gyro, std::move(row));
-        ++n_done_;
-        if (task_.on_progress) task_.on_progress(n_done_, n_asked_);
-    }
-
-private:
-    const Task& task_;
-    Checkpoint& checkpoint_;
-    Rows& rows_;
-    std::mutex recording_;
-    std::int64_t n_asked_;
-    std::int64_t n_done_ = 0;
-};
-
 // The crew of this process: its threads.
 Crew threads_of(const Task& task) {
     return [&task](const Gyros& gyros, const std::vector<std::int64_t>& asked, const std::function<void(Row)>& take) {
@@ -127,11 +105,16 @@ Outcome run(const Task& task) {
     Checkpoint checkpoint{part, description};
     add_rows(outcome.rows, checkpoint.rows(), part);
     const std::vector<std::int64_t> asked = missing(task, outcome.rows);
-    const std::size_t n_before = outcome.rows.size();
-    Record record{task, checkpoint, outcome.rows, asked.size()};
     const Crew crew = task.crew ? task.crew : threads_of(task);
-    outcome.is_stopped = !crew(gyros, asked, [&](Row row) { record.take(std::move(row)); });
-    outcome.n_run = static_cast<std::int64_t>(outcome.rows.size() - n_before);
+    std::mutex recording;
+    // Rows come from any thread.
+    outcome.is_stopped = !crew(gyros, asked, [&](Row row) {
+        const std::scoped_lock one_at_a_time{recording};
+        checkpoint.append(row);
+        outcome.rows.emplace(row.gyro, std::move(row));
+        ++outcome.n_run;
+        if (task.on_progress) task.on_progress(outcome.n_run, std::ssize(asked));
+    });
     if (outcome.is_stopped) return outcome;
     write_results(out, gyros, outcome.rows);
     checkpoint.remove();

@@ -6,8 +6,6 @@
 #include <functional>
 #include <utility>
 
-#include "draw_names.hpp"
-
 namespace zlg::sweep {
 namespace {
 

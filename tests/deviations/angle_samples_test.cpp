@@ -54,8 +54,46 @@ TEST_F(AngleSamplesTest, stream_into_the_deviation_of_the_same_numbers_in_memory
     }
 }
 
+// Through blocks of another length than the reader's.
+TEST_F(AngleSamplesTest, are_those_of_the_rows) {
+    for (const char* name : {"rows.csv", "rows.h5"}) {
+        const std::string path = (folder_ / name).string();
+        logs::AngleWriter writer(path, 0.01, {}, false);
+        for (int k = 0; k < 40000; ++k)
+            writer.write({.tick = k,
+                          .dtheta_arcsec = 1.0 * k,
+                          .dtheta_final_arcsec = -0.5 * k,
+                          .flags = static_cast<std::uint32_t>(k % 7)});
+        writer.close();
+        for (const auto column : {AngleColumn::dtheta, AngleColumn::dtheta_final}) {
+            auto samples = angle_samples(path, column, 3);
+            EXPECT_DOUBLE_EQ(samples.what.rate_hz, 100.0);
+            std::vector<double> values(1000);
+            std::vector<std::uint8_t> valid(1000);
+            int row = 0;
+            while (const auto n = samples.source(values, valid))
+                for (std::size_t k = 0; k < n; ++k, ++row) {
+                    ASSERT_EQ(values[k], (column == AngleColumn::dtheta ? 1.0 : -0.5) * row);
+                    ASSERT_EQ(valid[k], (row % 7) % 4 == 0 ? 1 : 0);
+                }
+            EXPECT_EQ(row, 40000);
+        }
+    }
+}
+
+TEST_F(AngleSamplesTest, end_with_a_complaint_where_a_row_is_not_good) {
+    const auto path = folder_ / "bad.csv";
+    std::ofstream(path) << "# tick_s = 0.01\ntick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags\n"
+                           "0,0.01,1,1,0,1,0\n1,0.02,nan,1,0,1,0\n";
+    auto samples = angle_samples(path.string(), AngleColumn::dtheta);
+    std::vector<double> values(1);
+    std::vector<std::uint8_t> valid(1);
+    EXPECT_EQ(samples.source(values, valid), 1U);
+    EXPECT_THROW((void)samples.source(values, valid), logs::FormatError);
+}
+
 TEST_F(AngleSamplesTest, keeps_what_is_not_said_to_be_missing) {
-    auto samples = angle_samples(log("angles.h5", 1000), logs::AngleColumn::dtheta, 0);
+    auto samples = angle_samples(log("angles.h5", 1000), AngleColumn::dtheta, 0);
     std::vector<double> values(2000);
     std::vector<std::uint8_t> valid(2000, 9);
     ASSERT_EQ(samples.source(values, valid), 1000U);

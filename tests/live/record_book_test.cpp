@@ -1,9 +1,8 @@
 #include <nlohmann/json.hpp>
 #include <zlg/live/record_book.hpp>
 
-#include "gap_view.hpp"
+#include "kept_records.hpp"
 #include "test.hpp"
-#include "thinned.hpp"
 
 namespace zlg::live::record_book_test {
 

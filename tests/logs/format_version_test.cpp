@@ -1,6 +1,6 @@
 // Claims about the version that a log says: what a writer is given is what a reader finds, in both formats.
 
-#include <zlg/logs/format_version.hpp>
+#include <zlg/logs/settings.hpp>
 
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>

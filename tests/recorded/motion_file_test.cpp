@@ -1,8 +1,9 @@
-#include "motion_file.hpp"
-#include "test.hpp"
+#include <zlg/recorded/motion.hpp>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
+
+#include "test.hpp"
 
 namespace zlg::recorded::motion_file_test {
 
@@ -31,6 +32,12 @@ config::Motion described(const std::string& path, const std::string& column = ""
     motion.column = column;
     motion.rate_hz = 1.0;
     return motion;
+}
+
+twin::Motion motion_of_file(const config::Motion& motion) {
+    config::Config config;
+    config.motion = motion;
+    return recorded::motion(config);
 }
 
 std::string refusal(const config::Motion& motion) {

@@ -1,7 +1,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <zlg/wire/cobs.hpp>
+#include <zlg/wire/frame.hpp>
 
 #include "test.hpp"
 

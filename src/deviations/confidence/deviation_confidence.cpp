@@ -15,9 +15,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <zlg/deviations/series.hpp>
 
-#include "chi_square_sum.hpp"
 #include "difference_covariance.hpp"
-#include "total_forms.hpp"
 #include "variance_parts.hpp"
 
 namespace zlg::deviations {

@@ -1,4 +1,4 @@
-#include "total_forms.hpp"
+#include "variance_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
 
-#include "total_terms.hpp"
-#include "variance_parts.hpp"
+#include "difference_covariance.hpp"
 
 namespace zlg::deviations {
 namespace {

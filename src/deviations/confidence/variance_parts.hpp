@@ -3,10 +3,12 @@
 // weight.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <zlg/deviations/deviation_kind.hpp>
 #include <zlg/deviations/variance_law.hpp>
 
 namespace zlg::deviations {
@@ -41,5 +43,30 @@ struct DifferenceTerms {
 // Terms from every start are averaged over cells, 128 at most; what that leaves out has the share and the degrees of
 // freedom that make the mean and, with `edf`, the variance of the whole right.
 [[nodiscard]] VarianceLaw law_of_difference_parts(const DifferenceTerms& terms, double edf);
+
+// The law of a sum of independent chi-square variables, each times its own scale.
+struct Tails {
+    double below = 0.0;
+    double above = 0.0;
+};
+
+// Probabilities that sum scale_i chi2(dof_i) is below and above x > 0: the inverse Laplace transform of
+// prod (1 + 2 scale_i s)^(-dof_i/2), integrated over a parabola through the saddle point, where nothing oscillates.
+//
+// source  C. Helstrom, IEEE Trans. Aerosp. Electron. Syst. 32 (1996) 867
+// accuracy  1e-7 of the smaller tail
+[[nodiscard]] Tails tails(std::span<const ChiSquarePart> parts, double x);
+
+// x with that much below, 0 < below < 1, and above = 1 - below, given for its digits.
+[[nodiscard]] double quantile(std::span<const ChiSquarePart> parts, const Tails& probability);
+
+// The total variances as quadratic forms of the record's second differences, and what follows: bias and law.
+//
+// Expectation of the total variance over that of the variance without mirroring, for rate noise f^noise.
+[[nodiscard]] double exact_total_bias(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals);
+
+// Of a record of which m is at most a half (totdev) or a third. Up to 14 averaging times of starts with parts; beyond,
+// degrees of freedom and skewness, which grow evenly with the length.
+[[nodiscard]] VarianceLaw total_law(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals);
 
 }  // namespace zlg::deviations

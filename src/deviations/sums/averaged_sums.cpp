@@ -1,4 +1,4 @@
-#include "averaged_sums.hpp"
+#include "difference_sums.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -11,52 +11,41 @@ namespace {
 
 constexpr std::int64_t chunk_starts = 16 * block_starts;  // of one thread
 
-ZLG_VECTOR_WIDTHS double second_squares(const double* a, std::int64_t m, std::int64_t n) {
+// Of the angle, between entries m apart.
+template <int order>
+ZLG_INLINE double difference(const double* a, std::int64_t m, std::int64_t i) {
     const double* b = a + m;
     const double* c = b + m;
+    const double middle = c[i] - b[i];
+    if constexpr (order == 2)
+        return middle - (b[i] - a[i]);
+    else
+        return (((c + m)[i] - c[i]) - middle) - (middle - (b[i] - a[i]));
+}
+
+template <int order>
+ZLG_INLINE double squares(const double* a, std::int64_t m, std::int64_t n) {
     return lane_sum(
         n, [=](std::int64_t i) __attribute__((always_inline)) {
-            const double d = (c[i] - b[i]) - (b[i] - a[i]);
+            const double d = difference<order>(a, m, i);
             return d * d;
         });
 }
 
-ZLG_VECTOR_WIDTHS double third_squares(const double* a, std::int64_t m, std::int64_t n) {
-    const double* b = a + m;
-    const double* c = b + m;
-    const double* e = c + m;
-    return lane_sum(
-        n, [=](std::int64_t i) __attribute__((always_inline)) {
-            const double middle = c[i] - b[i];
-            const double d = ((e[i] - c[i]) - middle) - (middle - (b[i] - a[i]));
-            return d * d;
-        });
-}
-
-ZLG_VECTOR_WIDTHS TermSum second_squares_of_known(const double* a, std::int64_t m, std::int64_t n) {
-    const double* b = a + m;
-    const double* c = b + m;
+template <int order>
+ZLG_INLINE TermSum squares_of_known(const double* a, std::int64_t m, std::int64_t n) {
     const auto sums = lane_sums(
         n, [=](std::int64_t i, double& square, double& one) __attribute__((always_inline)) {
-            const double d = (c[i] - b[i]) - (b[i] - a[i]);
+            const double d = difference<order>(a, m, i);
             square = d == d ? d * d : 0.0;
             one = d == d ? 1.0 : 0.0;
         });
     return {sums[0], static_cast<std::int64_t>(sums[1])};
 }
 
-ZLG_VECTOR_WIDTHS TermSum third_squares_of_known(const double* a, std::int64_t m, std::int64_t n) {
-    const double* b = a + m;
-    const double* c = b + m;
-    const double* e = c + m;
-    const auto sums = lane_sums(
-        n, [=](std::int64_t i, double& square, double& one) __attribute__((always_inline)) {
-            const double middle = c[i] - b[i];
-            const double d = ((e[i] - c[i]) - middle) - (middle - (b[i] - a[i]));
-            square = d == d ? d * d : 0.0;
-            one = d == d ? 1.0 : 0.0;
-        });
-    return {sums[0], static_cast<std::int64_t>(sums[1])};
+ZLG_VECTOR_WIDTHS TermSum squares_of(const double* a, bool may_be_missing, int order, std::int64_t m, std::int64_t n) {
+    if (may_be_missing) return order == 2 ? squares_of_known<2>(a, m, n) : squares_of_known<3>(a, m, n);
+    return {order == 2 ? squares<2>(a, m, n) : squares<3>(a, m, n), n};
 }
 
 // Windows are shorter than 2^31, and to that a processor converts many at a time.
@@ -68,9 +57,9 @@ ZLG_INLINE double between(double before, double after) { return after - before; 
 // Means of what is known in each window; times 2/m over 1/n1 + 1/n2, so that white noise keeps its expectation.
 //
 // whole  intervals in a window of m entries.
-template <class Count>
-ZLG_INLINE TermSum second_squares_of_means(const double* a, const Count* p, std::int64_t m, std::int64_t n,
-                                           double least, double whole) {
+template <int order, class Count>
+ZLG_INLINE TermSum squares_of_means(const double* a, const Count* p, std::int64_t m, std::int64_t n, double least,
+                                    double whole) {
     const double* b = a + m;
     const double* c = b + m;
     const Count* q = p + m;
@@ -78,30 +67,18 @@ ZLG_INLINE TermSum second_squares_of_means(const double* a, const Count* p, std:
     const auto sums = lane_sums(
         n, [=](std::int64_t i, double& square, double& one) __attribute__((always_inline)) {
             const double n1 = between(p[i], q[i]), n2 = between(q[i], r[i]);
-            const double d = (c[i] - b[i]) / n2 - (b[i] - a[i]) / n1;
-            const bool known = n1 >= least && n2 >= least;
-            square = known ? d * d * (2.0 * n1 * n2) / (whole * (n1 + n2)) : 0.0;
-            one = known ? 1.0 : 0.0;
-        });
-    return {sums[0], static_cast<std::int64_t>(sums[1])};
-}
-
-template <class Count>
-ZLG_INLINE TermSum third_squares_of_means(const double* a, const Count* p, std::int64_t m, std::int64_t n, double least,
-                                          double whole) {
-    const double* b = a + m;
-    const double* c = b + m;
-    const double* e = c + m;
-    const Count* q = p + m;
-    const Count* r = q + m;
-    const Count* s = r + m;
-    const auto sums = lane_sums(
-        n, [=](std::int64_t i, double& square, double& one) __attribute__((always_inline)) {
-            const double n1 = between(p[i], q[i]), n2 = between(q[i], r[i]), n3 = between(r[i], s[i]);
-            const double middle = (c[i] - b[i]) / n2;
-            const double d = ((e[i] - c[i]) / n3 - middle) - (middle - (b[i] - a[i]) / n1);
-            const bool known = n1 >= least && n2 >= least && n3 >= least;
-            square = known ? d * d * 6.0 / (whole * (1.0 / n1 + 4.0 / n2 + 1.0 / n3)) : 0.0;
+            const double early = (b[i] - a[i]) / n1, middle = (c[i] - b[i]) / n2;
+            bool known = n1 >= least && n2 >= least;
+            if constexpr (order == 2) {
+                const double d = middle - early;
+                square = d * d * (2.0 * n1 * n2) / (whole * (n1 + n2));
+            } else {
+                const double n3 = between(r[i], (r + m)[i]);
+                const double d = (((c + m)[i] - c[i]) / n3 - middle) - (middle - early);
+                known = known && n3 >= least;
+                square = d * d * 6.0 / (whole * (1.0 / n1 + 4.0 / n2 + 1.0 / n3));
+            }
+            square = known ? square : 0.0;
             one = known ? 1.0 : 0.0;
         });
     return {sums[0], static_cast<std::int64_t>(sums[1])};
@@ -109,14 +86,12 @@ ZLG_INLINE TermSum third_squares_of_means(const double* a, const Count* p, std::
 
 ZLG_VECTOR_WIDTHS TermSum squares_of_means(const double* a, const std::uint32_t* p, int order, std::int64_t m,
                                            std::int64_t n, double least, double whole) {
-    return order == 2 ? second_squares_of_means(a, p, m, n, least, whole)
-                      : third_squares_of_means(a, p, m, n, least, whole);
+    return order == 2 ? squares_of_means<2>(a, p, m, n, least, whole) : squares_of_means<3>(a, p, m, n, least, whole);
 }
 
 ZLG_VECTOR_WIDTHS TermSum squares_of_means_in_stream(const double* a, const double* p, int order, std::int64_t m,
                                                      std::int64_t n, double least, double whole) {
-    return order == 2 ? second_squares_of_means(a, p, m, n, least, whole)
-                      : third_squares_of_means(a, p, m, n, least, whole);
+    return order == 2 ? squares_of_means<2>(a, p, m, n, least, whole) : squares_of_means<3>(a, p, m, n, least, whole);
 }
 
 }  // namespace
@@ -143,11 +118,7 @@ TermSum difference_sum(const RecordView& view, int order, std::int64_t m, std::i
     if (view.known != nullptr) return squares_of_means(a, view.known + begin, order, m, n, least, whole);
     if (view.known_real != nullptr)
         return squares_of_means_in_stream(a, view.known_real + begin, order, m, n, least, whole);
-    TermSum sum;
-    if (view.may_be_missing)
-        sum = order == 2 ? second_squares_of_known(a, m, n) : third_squares_of_known(a, m, n);
-    else
-        sum = {order == 2 ? second_squares(a, m, n) : third_squares(a, m, n), n};
+    TermSum sum = squares_of(a, view.may_be_missing, order, m, n);
     sum.sum /= whole * whole;
     return sum;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Mean squares of second and third differences of a record, for many averaging times in one pass.
+// Sums of squares of differences of a record, for the averaging times of one kind of deviation.
 
 #include <cstdint>
 #include <span>
@@ -53,5 +53,32 @@ inline constexpr std::int64_t block_starts = 4096;
 
 // Terms that begin at 0, m, 2m, ...
 [[nodiscard]] TermSum side_by_side_sum(const RecordView& view, int order, std::int64_t m);
+
+// Mean squares of second differences of the averaged angle: the modified Allan variance.
+//
+// Of differences of rates, as TermSum says; terms begin at every border.
+//
+//   D_i = 1/m sum_{j<m} d_{i+j},  d_j = (x_{j+2m} - 2 x_{j+m} + x_j)/m
+//
+// Increments and rates with gaps: each half of D_i is a mean of the known samples under the triangular weights that it
+// has without gaps; it counts where least_known_ratio of the weights is known. Phase: D_i is the mean of the d_j that
+// are known, where least_known_ratio of them is.
+[[nodiscard]] std::vector<TermSum> averaged_sums(const RecordView& view, std::span<const std::int64_t> factors,
+                                                 int threads);
+
+// Terms begin .. end-1 of one averaging time.
+[[nodiscard]] TermSum averaged_sum(const RecordView& view, std::int64_t m, std::int64_t begin, std::int64_t end);
+
+// Mean squares over records, or pieces of them, that are continued by mirroring.
+//
+// Second differences about every border but the first and the last; the angle is doubly reflected: the rate goes on
+// backwards at both ends.
+[[nodiscard]] TermSum total_sum(const RecordView& view, std::int64_t m);
+
+// Pieces of 3m values, freed of the line through the means of their halves and mirrored at both ends: mean over the 6m
+// starts of the squared second difference of means over m. Values are the angle (mtotdev; results of a rate, so divided
+// by m^2) or the rate (htotdev). Pieces with a missing value are left out.
+enum class PieceOf { angle, rate };
+[[nodiscard]] TermSum mirrored_pieces_sum(const RecordView& view, PieceOf what, std::int64_t m, int threads);
 
 }  // namespace zlg::deviations

@@ -6,32 +6,11 @@
 
 #include "csv_reader.hpp"
 #include "log_io.hpp"
-#include "logged_fingerprint.hpp"
-#include "raw_timer.hpp"
 #include "settings_lines.hpp"
 
 namespace zlg::logs {
 
 namespace {
-
-constexpr const char* version_setting = "format_version";
-
-// The line of that name, which `settings` then lack.
-FormatVersion take_format_version(Settings& settings, const std::string& path) {
-    FormatVersion found;
-    for (const auto& [key, value] : settings) {
-        if (key != version_setting) continue;
-        const auto number = number_in(value);
-        if (!number) throw FormatError(fmt::format("{}: format_version is '{}'; allowed is a number", path, value));
-        const int version = checked_format_version(*number, path);
-        if (found && *found != version)
-            throw FormatError(fmt::format("{}: format_version stands twice, as {} and as {}; allowed is one value",
-                                          path, *found, version));
-        found = version;
-    }
-    std::erase_if(settings, [](const auto& setting) { return setting.first == version_setting; });
-    return found;
-}
 
 void complete_header(const CsvReader&, const std::string&, AngleHeader&) {}
 

@@ -10,8 +10,9 @@
 #include <type_traits>
 #include <vector>
 
+#include <zlg/logs/settings.hpp>
+
 #include "column_map.hpp"
-#include "csv_head.hpp"
 #include "line_reader.hpp"
 #include "text_fields.hpp"
 

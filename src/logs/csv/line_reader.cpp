@@ -33,7 +33,7 @@ void LineReader::refill() {
     while (!end_of_file_ && end_ < max_line_bytes) {
         const ssize_t n = ::read(file_.get(), buffer_.get() + end_, max_line_bytes - end_);
         if (n < 0 && errno == EINTR) continue;
-        if (n < 0) throw IoError(fmt::format("cannot read {}: {}", path_, std::strerror(errno)));
+        if (n < 0) fail_io("read", path_, errno);
         end_of_file_ = n == 0;
         end_ += static_cast<std::size_t>(n);
         read_bytes_ += n;

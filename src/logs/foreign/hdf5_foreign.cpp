@@ -16,7 +16,7 @@
 #include <zlg/text/spelling.hpp>
 
 #include "foreign_readers.hpp"
-#include "hdf5/hdf5_chunks.hpp"
+#include "hdf5/hdf5_column.hpp"
 #include "hdf5/hdf5_source.hpp"
 
 namespace zlg::logs {

@@ -29,23 +29,11 @@ Handle made(hid_t id, Handle::Closer closer) {
 }
 
 void require(herr_t outcome) {
-    if (outcome < 0) throw IoError(fmt::format("cannot make an HDF5 file: {}", hdf5::last_failure().reason));
-}
-
-Handle creation_of(hid_t kind) {
-    Handle creation = made(H5Pcreate(kind), &H5Pclose);
-    require(H5Pset_obj_track_times(creation.get(), false));
-    return creation;
+    (void)made(outcome, [](hid_t) -> herr_t { return 0; });
 }
 
 // A type has at least one letter.
-Handle letters_type(std::size_t size) {
-    Handle type = made(H5Tcopy(H5T_C_S1), &H5Tclose);
-    require(H5Tset_size(type.get(), std::max<std::size_t>(size, 1)));
-    require(H5Tset_strpad(type.get(), H5T_STR_NULLPAD));
-    require(H5Tset_cset(type.get(), H5T_CSET_UTF8));
-    return type;
-}
+Handle letters_type(std::size_t size) { return hdf5::text_type(std::max<std::size_t>(size, 1)); }
 
 // The texts one behind the other, each filled up with zeros to the length of the longest.
 struct Letters {
@@ -59,17 +47,16 @@ struct Letters {
     std::string letters;
 };
 
-void set_text(hid_t object, const char* name, const std::string& text) {
-    const Handle type = letters_type(text.size());
-    const Handle space = made(H5Screate(H5S_SCALAR), &H5Sclose);
+void set_attribute(hid_t object, const char* name, hid_t file_type, hid_t type, const void* value) {
     const Handle attribute =
-        made(H5Acreate2(object, name, type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), &H5Aclose);
-    require(H5Awrite(attribute.get(), type.get(), text.c_str()));
+        made(H5Acreate2(object, name, file_type, hdf5::scalar().get(), H5P_DEFAULT, H5P_DEFAULT), &H5Aclose);
+    require(H5Awrite(attribute.get(), type, value));
 }
 
-Handle add_set(hid_t file, const std::string& path, hid_t type, hid_t space, const void* values) {
-    const Handle creation = creation_of(H5P_DATASET_CREATE);
-    Handle set = made(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation.get(), H5P_DEFAULT), &H5Dclose);
+Handle add_set(hid_t file, const std::string& path, hid_t type, const Handle& space, const void* values) {
+    const Handle creation = hdf5::creation_of(H5P_DATASET_CREATE);
+    Handle set =
+        made(H5Dcreate2(file, path.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), &H5Dclose);
     require(H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
     return set;
 }
@@ -78,45 +65,37 @@ struct AddColumn {
     hid_t file;
     std::string path;
 
-    [[nodiscard]] Handle line(std::size_t n) const {
-        const hsize_t size = n;
-        return made(H5Screate_simple(1, &size, nullptr), &H5Sclose);
-    }
+    [[nodiscard]] Handle line(hsize_t n) const { return made(H5Screate_simple(1, &n, nullptr), &H5Sclose); }
     template <class T>
     [[nodiscard]] Handle operator()(const std::vector<T>& values) const {
-        return add_set(file, path, std::is_same_v<T, double> ? H5T_IEEE_F64LE : H5T_STD_I64LE,
-                       line(values.size()).get(), values.data());
+        return add_set(file, path, std::is_same_v<T, double> ? H5T_IEEE_F64LE : H5T_STD_I64LE, line(values.size()),
+                       values.data());
     }
     [[nodiscard]] Handle operator()(const std::vector<std::string>& texts) const {
         const Letters all{texts};
-        return add_set(file, path, letters_type(all.width).get(), line(texts.size()).get(), all.letters.data());
+        return add_set(file, path, letters_type(all.width).get(), line(texts.size()), all.letters.data());
     }
 };
 
 void fill(hid_t file, const ColumnFile& content) {
-    for (const auto& [name, value] : content.marks) {
-        const Handle space = made(H5Screate(H5S_SCALAR), &H5Sclose);
-        const Handle mark =
-            made(H5Acreate2(file, name.c_str(), H5T_STD_I64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT), &H5Aclose);
-        require(H5Awrite(mark.get(), H5T_NATIVE_INT64, &value));
-    }
-    for (const auto& [name, text] : content.texts) {
-        const Handle space = made(H5Screate(H5S_SCALAR), &H5Sclose);
-        (void)add_set(file, name, letters_type(text.size()).get(), space.get(), text.c_str());
-    }
-    const Handle creation = creation_of(H5P_GROUP_CREATE);
+    for (const auto& [name, value] : content.marks)
+        set_attribute(file, name.c_str(), H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+    for (const auto& [name, text] : content.texts)
+        (void)add_set(file, name, letters_type(text.size()).get(), hdf5::scalar(), text.c_str());
+    const Handle creation = hdf5::creation_of(H5P_GROUP_CREATE);
     const Handle group =
         made(H5Gcreate2(file, content.group.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), &H5Gclose);
     for (const FileColumn& column : content.columns) {
         const Handle set = std::visit(AddColumn{file, content.group + "/" + column.name}, column.values);
-        set_text(set.get(), "unit", column.unit);
+        const Handle type = letters_type(column.unit.size());
+        set_attribute(set.get(), "unit", type.get(), type.get(), column.unit.c_str());
     }
 }
 
 // All in memory, where nothing but memory can fail.
 void fill(hdf5::Storage& storage, const ColumnFile& content) {
     const Handle access = access_to(storage);
-    const Handle creation = creation_of(H5P_FILE_CREATE);
+    const Handle creation = hdf5::creation_of(H5P_FILE_CREATE);
     Handle file = made(H5Fcreate("results", H5F_ACC_TRUNC, creation.get(), access.get()), &H5Fclose);
     fill(file.get(), content);
     if (!file.close()) require(-1);

@@ -3,8 +3,10 @@
 // bytes are.
 
 #include <sys/types.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <new>
 #include <zlg/logs/error.hpp>
 
@@ -68,6 +70,27 @@ Handle access_of(hid_t driver, const Subject& subject) {
 }
 
 // Reads up to `size` bytes; the number of those before the end of the file, or -1.
-ssize_t read_at(int fd, haddr_t address, size_t size, void* buffer);
+inline ssize_t read_at(int fd, haddr_t address, size_t size, void* buffer) {
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t n =
+            ::pread(fd, static_cast<char*>(buffer) + done, size - done, static_cast<off_t>(address + done));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return -1;
+        if (n == 0) break;
+        done += static_cast<std::size_t>(n);
+    }
+    return static_cast<ssize_t>(done);
+}
+
+// How the HDF5 library reads a log: nothing is made up for what the file does not hold.
+//
+// The library's own driver hands out zeros behind the end of a file, and of a growing log it does not ask where the end
+// is. A log whose tail was lost would read as zeros.
+//
+// return  file access properties: reads `fd`, which must outlive the file, and fails for rows behind its end.
+// Structures
+//         of the library are still filled up with zeros, since it reads them ahead; they have checksums.
+[[nodiscard]] Handle access_to_read(int fd);
 
 }  // namespace zlg::logs::hdf5

@@ -32,6 +32,20 @@ herr_t collect(unsigned, const H5E_error2_t* entry, void* client) noexcept try {
 
 }  // namespace
 
+Handle text_type(std::size_t size) {
+    Handle type{H5Tcopy(H5T_C_S1), &H5Tclose};
+    H5Tset_size(type.get(), size);
+    if (size != H5T_VARIABLE) H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+    H5Tset_cset(type.get(), H5T_CSET_UTF8);
+    return type;
+}
+
+Handle creation_of(hid_t kind) {
+    Handle creation{H5Pcreate(kind), &H5Pclose};
+    H5Pset_obj_track_times(creation.get(), false);
+    return creation;
+}
+
 void keep_quiet() {
     thread_local const herr_t silenced = H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     static_cast<void>(silenced);

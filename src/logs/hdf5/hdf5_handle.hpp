@@ -45,6 +45,15 @@ hid_t memory_type() {
     if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
 }
 
+// A text of so many bytes, or H5T_VARIABLE, in UTF-8. One of a fixed size has no zero at its end, for the library puts
+// it in the place of the last letter where a program writes the text anew.
+[[nodiscard]] Handle text_type(std::size_t size);
+
+// How objects of a kind are made: without times, so that the same rows make the same file.
+[[nodiscard]] Handle creation_of(hid_t kind);
+
+[[nodiscard]] inline Handle scalar() { return {H5Screate(H5S_SCALAR), &H5Sclose}; }
+
 // The library would print every failure to stderr, also one that is expected and handled. Once per thread.
 void keep_quiet();
 

@@ -1,5 +1,4 @@
-#include "hdf5_input.hpp"
-
+// How the HDF5 library reads a log: see hdf5_driver.hpp.
 #include <fmt/format.h>
 #include <sys/stat.h>
 

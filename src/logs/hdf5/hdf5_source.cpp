@@ -11,8 +11,8 @@
 #include <zlg/text/escape.hpp>
 #include <zlg/text/inputs.hpp>
 
-#include "hdf5_input.hpp"
-#include "signature.hpp"
+#include <zlg/logs/file_nature.hpp>
+#include "hdf5_driver.hpp"
 
 namespace zlg::logs::hdf5 {
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 #include <zlg/logs/error.hpp>
 
+#include "file_descriptor.hpp"
 #include "hdf5_driver.hpp"
 
 namespace zlg::logs::hdf5 {
@@ -67,8 +69,9 @@ hid_t register_driver() {
 
 void Storage::publish() {
     const std::size_t head = std::min(superblock_bytes, image_.size());
-    write_to_file(head, image_.size() - head, image_.data() + head);
-    if (error_ == 0) write_to_file(0, head, image_.data());
+    const std::string_view image{image_.data(), image_.size()};
+    error_ = write_all(fd_, image.substr(head), head).error;
+    if (error_ == 0) error_ = write_all(fd_, image.substr(0, head), 0).error;
     // What did not reach the file goes on in memory, for the library reads it again when it closes.
     if (error_ != 0) return;
     staged_ = false;
@@ -103,7 +106,7 @@ void Storage::write(haddr_t address, size_t size, const void* buffer) {
         std::memcpy(&image_[address], bytes, size);
         return;
     }
-    if (error_ == 0) write_to_file(address, size, bytes);
+    if (error_ == 0) error_ = write_all(fd_, {bytes, size}, address).error;
     if (error_ == 0) return;
     // A later write to the same place is the valid one, whatever its size.
     for (auto& [begin, lost] : lost_) {
@@ -121,20 +124,6 @@ void Storage::resize(haddr_t size) {
         image_.resize(size);
     } else if (error_ == 0 && ::ftruncate(fd_, static_cast<off_t>(size)) != 0) {
         error_ = errno;
-    }
-}
-
-void Storage::write_to_file(haddr_t address, size_t size, const char* bytes) {
-    while (size > 0) {
-        const ssize_t n = ::pwrite(fd_, bytes, size, static_cast<off_t>(address));
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) {
-            error_ = n < 0 ? errno : ENOSPC;
-            return;
-        }
-        bytes += n;
-        address += static_cast<haddr_t>(n);
-        size -= static_cast<std::size_t>(n);
     }
 }
 

@@ -35,8 +35,6 @@ public:
     [[nodiscard]] haddr_t end() const { return end_; }
 
 private:
-    void write_to_file(haddr_t address, size_t size, const char* bytes);
-
     int fd_;
     int error_ = 0;
     bool staged_ = true;

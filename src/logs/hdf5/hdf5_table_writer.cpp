@@ -9,25 +9,6 @@ namespace {
 
 constexpr std::size_t no_cache = 0;  // rows come in blocks already, so a cache of chunks would only copy them
 
-Handle scalar() { return {H5Screate(H5S_SCALAR), &H5Sclose}; }
-
-// Text of variable length is what readers in other languages hand out as text. One of a fixed size has no zero at its
-// end, for the library puts it in the place of the last letter where a program writes the text anew.
-Handle text_type(std::size_t size) {
-    Handle type{H5Tcopy(H5T_C_S1), &H5Tclose};
-    H5Tset_size(type.get(), size);
-    if (size != H5T_VARIABLE) H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
-    H5Tset_cset(type.get(), H5T_CSET_UTF8);
-    return type;
-}
-
-// No times, so that the same rows make the same file.
-Handle creation_of(hid_t kind) {
-    Handle creation{H5Pcreate(kind), &H5Pclose};
-    H5Pset_obj_track_times(creation.get(), false);
-    return creation;
-}
-
 // While it lives, groups that the library makes by its own default list have no times either: the object that describes
 // paged allocation is made so, and its time alone would tell two files of the same rows apart.
 class NoDefaultTimes {
@@ -134,6 +115,7 @@ void TableWriter::overwrite_text(const std::string& path, const std::string& tex
 }
 
 void TableWriter::set_text(const std::string& object, const char* name, const std::string& text) {
+    // Text of variable length is what readers in other languages hand out as text.
     const Handle type = text_type(H5T_VARIABLE);
     const Handle attribute{H5Acreate_by_name(file_.get(), object.c_str(), name, type.get(), scalar().get(), H5P_DEFAULT,
                                              H5P_DEFAULT, H5P_DEFAULT),

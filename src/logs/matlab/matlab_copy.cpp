@@ -28,8 +28,7 @@ double truth(const TimedAngle& angle) { return angle.truth_dtheta_arcsec; }
 
 void add_facts(Matlab5File& file, const Settings& settings) {
     for (const char* name : {"tick_s", "scale_arcsec"}) {
-        const std::string* text = find_setting(settings, fmt::format("gyro.{}", name));
-        if (text == nullptr) text = find_setting(settings, name);
+        const std::string* text = find_of_gyro(settings, name);
         if (text == nullptr) continue;
         if (const auto value = number_in(*text)) file.add(name, *value);
     }

@@ -6,7 +6,6 @@
 
 #include <zlg/core/records.hpp>
 #include <zlg/deviations/deviation_stream.hpp>
-#include <zlg/logs/angle_increments.hpp>
 
 namespace zlg::deviations {
 
@@ -15,6 +14,9 @@ inline constexpr std::uint32_t not_measured = core::flag_extrapolated | core::fl
                                               core::flag_unrepaired | core::flag_loop_unlocked | core::flag_invalid |
                                               core::flag_mode_mixed;
 
+// As delivered in real time; the best that was known afterwards.
+enum class AngleColumn { dtheta, dtheta_final };
+
 struct AngleSamples {
     SeriesKind what;  // increments in arcsec, one a tick
     SampleSource source;
@@ -22,9 +24,8 @@ struct AngleSamples {
 
 // missing_flags  a tick with one of them is a missing sample.
 //
-// errors  IoError, FormatError as AngleIncrements; FormatError: no tick_s in the log. The source: FormatError.
-[[nodiscard]] AngleSamples angle_samples(const std::string& path,
-                                         logs::AngleColumn column = logs::AngleColumn::dtheta_final,
+// errors  IoError, FormatError as logs::AngleReader; FormatError: no tick_s in the log. The source: FormatError.
+[[nodiscard]] AngleSamples angle_samples(const std::string& path, AngleColumn column = AngleColumn::dtheta_final,
                                          std::uint32_t missing_flags = not_measured);
 
 }  // namespace zlg::deviations

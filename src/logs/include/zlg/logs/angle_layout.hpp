@@ -7,21 +7,15 @@
 #include <vector>
 
 #include <zlg/core/records.hpp>
-#include <zlg/logs/format_version.hpp>
 #include <zlg/logs/row_rules.hpp>
 #include <zlg/logs/settings.hpp>
 #include <zlg/logs/table_column.hpp>
 
 namespace zlg::logs {
 
-struct AngleHeader {
-    // `# key = value` or /config, in their order; with the legend of the flags, `flags`, and `tick_s`.
-    Settings settings;
-    std::vector<std::string> warnings;  // unknown columns that are ignored, one line each
-    bool has_truth = false;             // /truth/dtheta_arcsec
-    bool complete = true;               // false: an HDF5 log that is being written, or whose writer was interrupted
-    std::string fingerprint;            // of the whole run, 16 hexadecimal digits; empty: not said, or not complete
-    FormatVersion format_version;       // empty: not said
+// Among its settings the legend of the flags, `flags`, and `tick_s`.
+struct AngleHeader : LogHeader {
+    bool has_truth = false;  // /truth/dtheta_arcsec
 };
 
 // A row and the time at which its tick ends.

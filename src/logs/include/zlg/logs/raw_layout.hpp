@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <zlg/core/records.hpp>
-#include <zlg/logs/format_version.hpp>
 #include <zlg/logs/row_rules.hpp>
 #include <zlg/logs/settings.hpp>
 #include <zlg/logs/table_column.hpp>
@@ -37,15 +36,9 @@ inline constexpr RawColumns all_raw_columns{.has_valid = true,
                                             .has_span = true,
                                             .has_lit = true};
 
-// What stands above the rows.
-struct RawHeader : RawColumns {
-    Settings settings;                  // `# key = value` or /config, in their order
-    std::vector<std::string> warnings;  // unknown columns that are ignored, one line each
-    int light_samples = 0;              // N of /raw/light; 0: there is none
-    bool has_light_b = false;           // /raw/light_b beside it
-    bool complete = true;               // false: an HDF5 log that is being written, or whose writer was interrupted
-    std::string fingerprint;            // of the whole run, 16 hexadecimal digits; empty: not said, or not complete
-    FormatVersion format_version;       // empty: not said
+struct RawHeader : RawColumns, LogHeader {
+    int light_samples = 0;     // N of /raw/light; 0: there is none
+    bool has_light_b = false;  // /raw/light_b beside it
 };
 
 struct RawWriterOptions {

@@ -1,6 +1,7 @@
 #pragma once
 // What a sweep is: how many gyros, what they have in common, what is drawn for each, what is recorded of each.
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -89,5 +90,16 @@ inline constexpr std::int64_t max_gyros = 10'000'000;
 
 // The same where every line must agree.
 [[nodiscard]] std::string first_difference(const std::string& theirs, const std::string& ours);
+
+// The names of the draws in a description, in the order of DrawKind.
+inline constexpr std::array<std::string_view, 8> draw_names{"grid",   "list",      "uniform", "log_uniform",
+                                                            "normal", "truncated", "latin",   "sobol"};
+
+[[nodiscard]] constexpr std::string_view name_of(DrawKind kind) { return draw_names[static_cast<std::size_t>(kind)]; }
+
+// Which numbers a draw is described by.
+[[nodiscard]] constexpr bool has_values(DrawKind kind) { return kind == DrawKind::grid || kind == DrawKind::list; }
+[[nodiscard]] constexpr bool has_mean(DrawKind kind) { return kind == DrawKind::normal || kind == DrawKind::truncated; }
+[[nodiscard]] constexpr bool has_range(DrawKind kind) { return !has_values(kind) && kind != DrawKind::normal; }
 
 }  // namespace zlg::sweep

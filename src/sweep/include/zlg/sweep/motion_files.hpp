@@ -1,9 +1,10 @@
 #pragma once
 // The motion files that the gyros of a sweep read: a result of one content is none of another.
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <string>
-#include <vector>
 
 #include <zlg/sweep/description.hpp>
 
@@ -24,21 +25,12 @@ public:
     void require_unchanged() const;
 
 private:
-    // Zero where there is no such file.
-    struct Stamp {
-        std::uint64_t device = 0, inode = 0;
-        std::int64_t size = 0, seconds = 0, nanoseconds = 0;  // of the last writing
-
-        friend bool operator==(const Stamp&, const Stamp&) = default;
-    };
-    struct Watched {
-        std::string path;
-        Stamp stamp;
-    };
+    // Device, inode, bytes, and when it was last written, s and ns; zeros where there is no such file.
+    using Stamp = std::array<std::int64_t, 5>;
 
     static Stamp stamp_of(const std::string& path);
 
-    std::vector<Watched> files_;
+    std::map<std::string, Stamp> files_;
 };
 
 }  // namespace zlg::sweep

@@ -1,18 +1,48 @@
-// Records from a log while it is being written.
+// Records from a gyro's line, and from a log while it is being written.
 
 #include <zlg/live/record_source.hpp>
 
-#include <charconv>
 #include <chrono>
-#include <cmath>
 #include <deque>
 #include <thread>
 #include <utility>
 
+#include <zlg/logs/follower.hpp>
 #include <zlg/rig/replay.hpp>
 
 namespace zlg::live {
 namespace {
+
+class LineSource final : public RecordSource {
+public:
+    LineSource(const std::string& source, int baud) : follower_{source, baud, std::nullopt} {}
+
+    Next next(Record& record) override {
+        switch (follower_.next(record.angle)) {
+            case logs::Follower::Next::end:
+                return Next::end;
+            case logs::Follower::Next::nothing:
+                return Next::nothing;
+            case logs::Follower::Next::row:
+                break;
+        }
+        if (const std::optional<wire::Status>& status = follower_.rows().status()) {
+            record.detuning_lambda = status->detuning_lambda;
+            record.piezo_v = status->piezo_v;
+            record.temperature_c = status->temperature_c;
+            record.health = status->health;
+        }
+        return Next::record;
+    }
+
+    void stop() override { follower_.stop(); }
+    [[nodiscard]] std::optional<double> tick_s() const override { return follower_.rows().tick_s(); }
+    [[nodiscard]] bool tells_health() const override { return true; }
+    [[nodiscard]] logs::Settings settings() const override { return logs::line_settings(); }
+
+private:
+    logs::Follower follower_;
+};
 
 constexpr std::chrono::milliseconds patience{50};
 
@@ -28,20 +58,10 @@ RecordSource::Next next_row(Reader& log, Row& row, bool is_stopped) {
     return Next::nothing;
 }
 
-std::optional<double> said_tick_s(const logs::Settings& settings) {
-    for (const auto& [key, text] : settings) {
-        if (key != "tick_s") continue;
-        double tick_s = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), tick_s);
-        if (error == std::errc{} && end == text.data() + text.size() && tick_s > 0.0 && std::isfinite(tick_s))
-            return tick_s;
-    }
-    return std::nullopt;
-}
-
 class AngleSource final : public RecordSource {
 public:
-    explicit AngleSource(logs::AngleReader log) : log_{std::move(log)}, tick_s_{said_tick_s(log_.header().settings)} {}
+    explicit AngleSource(logs::AngleReader log)
+        : log_{std::move(log)}, tick_s_{logs::said_tick_s(log_.header().settings)} {}
 
     Next next(Record& record) override {
         logs::TimedAngle angle;
@@ -130,6 +150,10 @@ private:
 };
 
 }  // namespace
+
+std::unique_ptr<RecordSource> line_source(const std::string& source, int baud) {
+    return std::make_unique<LineSource>(source, baud);
+}
 
 std::unique_ptr<RecordSource> log_source(logs::AngleReader log) {
     return std::make_unique<AngleSource>(std::move(log));

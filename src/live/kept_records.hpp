@@ -1,7 +1,8 @@
 #pragma once
-// The newest gap of the measurement, with the ticks around it, for a picture.
+// What is kept of records in bounded memory for the pages.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -12,6 +13,33 @@
 
 namespace zlg::live {
 
+// Every stride-th value, from the first on; the stride is doubled whenever `capacity` of them are kept.
+template <class Value, std::size_t capacity>
+class Thinned {
+public:
+    void add(const Value& value) {
+        const bool is_kept = n_ % stride_ == 0;
+        ++n_;
+        if (!is_kept) return;
+        if (kept_.size() == capacity) {
+            for (std::size_t k = 0; 2 * k < capacity; ++k) kept_[k] = kept_[2 * k];
+            kept_.resize((capacity + 1) / 2);
+            stride_ *= 2;
+            if ((n_ - 1) % stride_ != 0) return;
+        }
+        kept_.push_back(value);
+    }
+
+    [[nodiscard]] const std::vector<Value>& kept() const { return kept_; }
+    [[nodiscard]] std::int64_t stride() const { return stride_; }
+
+private:
+    std::vector<Value> kept_;
+    std::int64_t stride_ = 1;
+    std::int64_t n_ = 0;
+};
+
+// The newest gap of the measurement, with the ticks around it, for a picture.
 struct GapView {
     std::int64_t first_row = 0;        // of the gap
     std::int64_t n_ticks = 0;          // of the gap

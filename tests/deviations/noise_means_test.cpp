@@ -1,4 +1,4 @@
-#include "lag_one.hpp"
+#include "noise_means.hpp"
 #include "test.hpp"
 
 namespace zlg::deviations::lag_one_test {
