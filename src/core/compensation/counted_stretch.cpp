@@ -65,10 +65,7 @@ double angle(const CompensationConstants& gyro, const CountedStretchState& s, He
 }  // namespace
 
 double detuning_sq(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
-    if (!(half.detuning_sq_lambda2 > 0.0)) return 0.0;
-    const double noise = gyro.light_noise.value();
-    return about(gyro.centre,
-                 true_moments(gyro.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise * noise));
+    return half.detuning_sq_lambda2 > 0.0 ? about(gyro.centre, moments_of(gyro, half)) : 0.0;
 }
 
 CountedStretch step(const CompensationConstants& gyro, CountedStretchState& state, const HalfRecord& first,
@@ -86,7 +83,7 @@ CountedStretch step(const CompensationConstants& gyro, CountedStretchState& stat
     // Without either nothing bounds the false drift.
     if (!state.broken && (state.known_before || state.seen))
         out = {state.n_ticks, angle(gyro, state, bias, second, edges),
-               (state.max_sq_lambda2 - state.min_sq_lambda2) * most_over_square(gyro.bend, state.max_sq_lambda2)};
+               most_loss(gyro.bend, state.max_sq_lambda2) - most_loss(gyro.bend, state.min_sq_lambda2)};
     state.n_ticks = 0;
     const double last_sq_lambda2 = detuning_sq(gyro, second);
     if (last_sq_lambda2 > 0.0 && is_finite(last_sq_lambda2))

@@ -209,23 +209,24 @@ void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& 
     const double drift_arcsec = unit * known.fall_lambda2;
     const double rounding = rounding_arcsec2(gyro, state.stretch.start_border, borders.end);
     double drift_variance = drift_arcsec * drift_arcsec;
-    tick.known_ticks = known.n_ticks;
-    tick.known_arcsec = known.angle_arcsec;
+    // More are a stretch of months.
+    tick.known.ticks = known.n_ticks < INT32_MAX ? static_cast<std::int32_t>(known.n_ticks) : 0;
+    tick.known.arcsec = known.angle_arcsec;
     const bool settles = !(drift_variance <= rounding_arcsec2(gyro));
     if (settles && state.stretch.seen) {
-        tick.known_arcsec += unit * state.stretch.deficit_lambda2;
+        tick.known.arcsec += unit * state.stretch.deficit_lambda2;
         drift_variance = law_part * law_part * drift_variance + unit * unit * state.stretch.deficit_variance_lambda4;
     }
-    tick.known_is_rough = settles;
+    tick.known.is_rough = settles;
     tick.known_drift_arcsec2 = drift_variance;
-    tick.known_variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
+    tick.known.variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
     // What lock-in takes from the ticks at their mean rate is given back.
     const double turn = 0.5 * state.edges.turn_counts, of_bias = 0.5 * bias.value() * gyro.tick.value();
     const LostCounts lost = lost_to_lock_in(gyro, config.lock_in, turn + of_bias, turn - of_bias);
     const double scale = gyro.scale.value(), arcsec = scale * as_double(known.n_ticks);
     tick.variance_arcsec2 += scale * scale * lost.variance;
-    tick.known_arcsec += arcsec * lost.value;
-    tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
+    tick.known.arcsec += arcsec * lost.value;
+    tick.known.variance_arcsec2 += arcsec * arcsec * lost.variance;
     // What `step` has concluded from the sum about the edges holds for an even bias.
     if (settles) break_off(state.edges);
 }
