@@ -35,13 +35,6 @@ GyroCompensationFault check(const CompensationConstants& g) noexcept {
     return light ? Fault::none : Fault::relock;
 }
 
-Loss loss_at(const LossBend& bend, double sq) noexcept {
-    const auto& [b0, b1, b2] = bend.term;
-    return {.value = sq * (1.0 + sq * (b0 + sq * (b1 + sq * b2))),
-            .slope = 1.0 + sq * (2.0 * b0 + sq * (3.0 * b1 + sq * 4.0 * b2)),
-            .curvature = 1.0 + sq * (6.0 * b0 + sq * (15.0 * b1 + sq * 28.0 * b2))};
-}
-
 double most_loss(const LossBend& bend, double sq_lambda2) noexcept {
     const auto& [b0, b1, b2] = bend.term;
     return loss_at({{size(b0), size(b1), size(b2)}}, sq_lambda2).value;

@@ -48,18 +48,10 @@ void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges
 // Without shifts exactly K c.
 double angle(const CompensationConstants& gyro, const CountedStretchState& s, Hertz bias, const HalfRecord& last,
              EdgeShiftState& edges) noexcept {
-    const std::int32_t end = last.edge_offset_ticks;
     const double counts = counts_and_parts(s.counts, parts_between(s.start_border, border_of(last)));
-    const double scale = gyro.scale.value();
     const double area = plateau_per_tick(gyro, bias) * as_double(s.area_ticks);
-    const double turn = (counts - area) / as_double(s.n_ticks);
-    const double ticks = gyro.tick.value() * gyro.timer.value();
-    const double start_arcsec = s.start.follows ? s.start.beyond_arcsec : scale * turn * (s.start.offset_ticks / ticks);
-    const double end_arcsec = scale * turn * (end / ticks);
-    edges.follows = true;
-    edges.turn_counts = turn;
-    edges.beyond_arcsec = end_arcsec;
-    return scale * counts - scale * area + start_arcsec - end_arcsec;
+    edges = s.start;
+    return even_angle(gyro, edges, counts, area, last.edge_offset_ticks, as_double(s.n_ticks));
 }
 
 }  // namespace

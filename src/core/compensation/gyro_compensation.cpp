@@ -33,9 +33,8 @@ struct Borders {
     Border end{};
 };
 
-TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
-                   const Borders& borders, double value_arcsec) noexcept {
-    TickInput tick;
+void assemble(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
+              const Borders& borders, double value_arcsec, TickInput& tick) noexcept {
     tick.measured = is_measured(first, second);
     tick.late = first.late || second.late;
     tick.value_arcsec = value_arcsec;
@@ -49,7 +48,6 @@ TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, c
         tick.flags |= flag_mode_mixed;
         tick.variance_arcsec2 = infinity;
     }
-    return tick;
 }
 
 // Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide
@@ -243,7 +241,8 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
     const EdgeShiftState edges_before = state.edges;
     const std::int32_t parts = parts_between(borders.start, borders.end);
     const EdgeShiftOutput shifted = step(config.gyro, state.edges, first, second, parts);
-    TickInput tick = assemble(config.gyro, first, second, borders, shifted.value_arcsec);
+    TickInput tick;
+    assemble(config.gyro, first, second, borders, shifted.value_arcsec, tick);
     take_light(config, state, second, light, 1);
     double half_excess = 0.0;
     if (tick.measured) {

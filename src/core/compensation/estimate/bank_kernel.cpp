@@ -56,25 +56,27 @@ double BankKernel::at(int r, int s) const noexcept {
 }
 
 template <unsigned n>
-void BankKernel::add_terms(std::span<const int> rows, double size, Triangle matrix) const noexcept {
+void BankKernel::add_terms(std::span<const int> rows, Triangle matrix, double size, Triangle into) const noexcept {
     for (std::size_t a = 0; a < rows.size(); ++a) {
         const auto late = static_cast<unsigned>(rows[a]);
-        double* const to = matrix.row(static_cast<int>(a));
+        const double* const from = matrix.row(rows[a]);
+        double* const to = into.row(static_cast<int>(a));
         double of_late[n];
         for (unsigned t = 0; t < n; ++t) of_late[t] = size * late_[t][late];
         for (std::size_t b = 0; b < a; ++b) {
-            double sum = to[b];
-            for (unsigned t = 0; t < n; ++t) sum += of_late[t] * early_[t][static_cast<unsigned>(rows[b])];
+            const auto early = static_cast<unsigned>(rows[b]);
+            double sum = from[early];
+            for (unsigned t = 0; t < n; ++t) sum += of_late[t] * early_[t][early];
             to[b] = sum;
         }
-        to[a] += size * variance_[late];
+        to[a] = from[late] + size * variance_[late];
     }
 }
 
-void BankKernel::add_to(std::span<const int> rows, double size, Triangle matrix) const noexcept {
+void BankKernel::add(std::span<const int> rows, Triangle matrix, double size, Triangle into) const noexcept {
     // Terms beyond its own are 0.
-    if (n_terms_ <= 2) return add_terms<2>(rows, size, matrix);
-    return n_terms_ <= 4 ? add_terms<4>(rows, size, matrix) : add_terms<6>(rows, size, matrix);
+    if (n_terms_ <= 2) return add_terms<2>(rows, matrix, size, into);
+    return n_terms_ <= 4 ? add_terms<4>(rows, matrix, size, into) : add_terms<6>(rows, matrix, size, into);
 }
 
 }  // namespace zlg::core

@@ -23,14 +23,15 @@ public:
     // Of two rows of the window.
     [[nodiscard]] double at(int r, int s) const noexcept;
 
-    // To a matrix of these rows, which are in order of time, so many times.
-    void add_to(std::span<const int> rows, double size, Triangle matrix) const noexcept;
+    // A matrix of all rows, with so many times the kernel: of these of them, which are in order of time. It may take
+    // the place of the matrix.
+    void add(std::span<const int> rows, Triangle matrix, double size, Triangle into) const noexcept;
 
 private:
     using Terms = std::array<std::array<double, most_window_rows>, 2 * most_walk_terms>;
 
     template <unsigned n>
-    void add_terms(std::span<const int> rows, double size, Triangle matrix) const noexcept;
+    void add_terms(std::span<const int> rows, Triangle matrix, double size, Triangle into) const noexcept;
 
     unsigned n_terms_ = 0;
     std::array<double, most_window_rows> variance_{};

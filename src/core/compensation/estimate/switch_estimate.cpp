@@ -116,7 +116,8 @@ struct Problem {
         for (int r = 0; r < window.n_rows; ++r) {
             if (!row_of(window, r).wanted) continue;
             all.add(1.0, target(r));
-            all.variance += with_all(r) - wanted(r, r);
+            for (int s = 0; s < r; ++s)
+                if (row_of(window, s).wanted) all.variance += 2.0 * wanted(r, s);
         }
         return all;
     }
@@ -282,8 +283,7 @@ Mixture mixture_of(const Problem& problem, const Target& all, bool is_learnt, st
         const Target walked = problem.target(kernel);
         for (const double size : motion_sizes) {
             if (pause != nullptr) pause();
-            problem.copy_points(factor);
-            kernel.add_to({problem.rows.data(), static_cast<std::size_t>(problem.n)}, size * unit, factor);
+            kernel.add({problem.rows.data(), static_cast<std::size_t>(problem.n)}, problem.v, size * unit, factor);
             Target angle = all;
             angle.add(size * unit, walked);
             add(of_member, angle, {b, size * unit});
@@ -309,7 +309,7 @@ void add_likeliest(const Candidate& likeliest, std::span<const BankMember> bank,
     std::array<int, most_window_rows> all{};
     for (int r = 0; r < problem.window.n_rows; ++r) all[static_cast<unsigned>(r)] = r;
     const BankKernel kernel{bank[likeliest.member], problem.window};
-    kernel.add_to({all.data(), static_cast<std::size_t>(problem.window.n_rows)}, likeliest.size, problem.v);
+    kernel.add({all.data(), static_cast<std::size_t>(problem.window.n_rows)}, problem.v, likeliest.size, problem.v);
 }
 
 // The rows, given the angle and the variance of all of them together: one more estimate, by the covariance of the

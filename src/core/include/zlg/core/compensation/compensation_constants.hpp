@@ -24,7 +24,12 @@ struct Loss {
     double curvature = 1.0;  // half of the second derivative by x
 };
 
-[[nodiscard]] Loss loss_at(const LossBend& bend, double sq_lambda2) noexcept;
+[[nodiscard]] constexpr Loss loss_at(const LossBend& bend, double sq) noexcept {
+    const auto& [b0, b1, b2] = bend.term;
+    return {.value = sq * (1.0 + sq * (b0 + sq * (b1 + sq * b2))),
+            .slope = 1.0 + sq * (2.0 * b0 + sq * (3.0 * b1 + sq * 4.0 * b2)),
+            .curvature = 1.0 + sq * (6.0 * b0 + sq * (15.0 * b1 + sq * 28.0 * b2))};
+}
 // Its value with no term less than 0: as much as a part of it may be.
 [[nodiscard]] double most_loss(const LossBend& bend, double sq_lambda2) noexcept;
 
