@@ -196,9 +196,11 @@ constexpr double law_part = 0.03;
 // exceeds the rounding of the counter, as in a re-lock, it is subtracted if the light was read throughout, and in any
 // case the sum is rough.
 void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
-                   const HalfRecord& second, const Borders& borders, const EdgeShiftState& edges_before,
-                   TickInput& tick) noexcept {
+                   const HalfRecord& second, const Borders& borders, TickInput& tick) noexcept {
     const CompensationConstants& gyro = config.gyro;
+    // The stretch sets them where it knows the sum.
+    const EdgeShiftState edges_before = state.edges;
+    state.edges = {.offset_ticks = second.edge_offset_ticks};
     const Hertz bias = bias_at(gyro, Celsius{first.temperature_c});
     const CountedStretch known =
         step(gyro, state.stretch, first, second, bias, edges_before, state.edges, borders.start);
@@ -231,17 +233,18 @@ void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& 
 
 // What is known of a tick is applied in the order in which it acts: edges and lock-in on the counts, a push of the
 // perimeter or the re-lock, the edges of faults, the magnetic drift. What remains goes to the gap interpolation.
-CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
-                                 const HalfRecord& second, LightSamples light) noexcept {
+AngleSample complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& second,
+                          LightSamples light) noexcept {
+    TickInput tick;
     const HalfRecord& first = state.first;
     state.has_first = false;
 
     const Borders borders{state.border, border_of(first), border_of(second)};
     state.border = borders.end;
-    const EdgeShiftState edges_before = state.edges;
     const std::int32_t parts = parts_between(borders.start, borders.end);
-    const EdgeShiftOutput shifted = step(config.gyro, state.edges, first, second, parts);
-    TickInput tick;
+    const bool is_bridged = !is_measured(first, second) && config.bridge.method != BridgeMethod::none;
+    EdgeShiftOutput shifted;
+    if (!is_bridged) shifted = step(config.gyro, state.edges, first, second, parts);
     assemble(config.gyro, first, second, borders, shifted.value_arcsec, tick);
     take_light(config, state, second, light, 1);
     double half_excess = 0.0;
@@ -256,8 +259,12 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         const double excess = shifted.known_excess_counts - counts_and_parts(0, unequal);
         const RelockTick read{first, second, excess, tick.with_phase};
         tick.variance_arcsec2 += pushed_arcsec2(config.gyro, config.relock, state.relock, read, tick.variance_arcsec2);
-        const auto relock = step(config.gyro, config.relock, state.relock, read);
-        apply(config.relock, relock, tick);
+        state.first_waits = false;
+        if (state.relock.armed && state.relock.since_gap <= config.relock.ticks) {
+            const RelockDriftOutput relock = step(config.gyro, config.relock, state.relock, read);
+            apply(config.relock, relock, tick);
+            state.first_waits = relock.waiting;
+        }
         if (state.refused) {
             // The fault may have ended in its first half.
             tick.variance_arcsec2 += unseen_arcsec2(config.gyro);
@@ -270,17 +277,12 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
             state.bias_arcsec += (0.5 * tick.sign * half_excess - state.bias_arcsec) / state.n_bias;
         }
         half_excess -= 2.0 * tick.sign * state.bias_arcsec;
-        state.first_waits = relock.waiting;
         begin_anew(state.stretch, detuning_sq(config.gyro, second));
     } else {
         const bool moves = !(first.loop_closed && second.loop_closed);
         // What is not corrected is uncertain only where the perimeter may have moved.
         if (!config.relock.presumes || moves || is_refused(first) || is_refused(second)) enter_gap(state.relock);
-        if (config.bridge.method != BridgeMethod::none) {
-            break_off(state.edges);
-            // After `break_off`: it sets the edges again where it knows the sum.
-            set_known_sum(config, state, first, second, borders, edges_before, tick);
-        }
+        if (is_bridged) set_known_sum(config, state, first, second, borders, tick);
         // The fault may have begun in the last half before the one in which a monitor saw it.
         const bool may_have_begun = is_refused(first) && !state.bridge.gap.open;
         if (may_have_begun) tick.amend_variance_arcsec2 = unseen_arcsec2(config.gyro);
@@ -300,17 +302,16 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
             read_lit_half(config, state, second, borders.middle, borders.end, tick.half[1]);
         }
     }
-    CompensationOutput out{.has_sample = true, .sample = step(config.gyro, bridge_of(config), state.bridge, tick)};
-    const GapReport& gap = out.sample.gap;
+    AngleSample sample = step(config.gyro, bridge_of(config), state.bridge, tick);
+    const GapReport& gap = sample.gap;
     const double sq = gap.sigma_sum_arcsec * gap.sigma_sum_arcsec;
-    if (out.sample.has_gap && gap.mode_changed && is_finite(sq)) {
+    if (sample.has_gap && gap.mode_changed && is_finite(sq)) {
         if (state.n_switches < remembered_switches) ++state.n_switches;
         state.switch_error_arcsec2 += (sq - state.switch_error_arcsec2) / static_cast<double>(state.n_switches);
     }
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
-    state.angle.add(counted, config.gyro.scale.value(), out.sample.dtheta_arcsec, tick.measured ? parts : 0);
-    out.angle_arcsec = state.angle.value_arcsec(config.gyro.scale.value());
-    return out;
+    state.angle.add(counted, config.gyro.scale.value(), sample.dtheta_arcsec, tick.measured ? parts : 0);
+    return sample;
 }
 
 }  // namespace
@@ -338,7 +339,9 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
     if (state.has_first) {
         HalfRecord second = half;
         sanitise(config, state, second);
-        return complete_tick(config, state, second, light);
+        return {.has_sample = true,
+                .sample = complete_tick(config, state, second, light),
+                .angle_arcsec = state.angle.value_arcsec(config.gyro.scale.value())};
     }
     HalfRecord& first = state.first;
     first = half;
