@@ -87,8 +87,8 @@ void begin_anew(CountedStretchState& state, double detuning_sq_lambda2) noexcept
     state.n_ticks = 0;
     state.uncovered = 0;
     state.known_before = true;
-    state.min_sq_lambda2 = state.max_sq_lambda2 = 0.0;
-    see_detuning(state, detuning_sq_lambda2);
+    const bool is_known = detuning_sq_lambda2 > 0.0 && is_finite(detuning_sq_lambda2);
+    state.min_sq_lambda2 = state.max_sq_lambda2 = is_known ? detuning_sq_lambda2 : 0.0;
 }
 
 }  // namespace zlg::core

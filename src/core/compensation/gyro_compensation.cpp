@@ -35,16 +35,16 @@ struct Borders {
 
 void assemble(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
               const Borders& borders, double value_arcsec, TickInput& tick) noexcept {
-    tick.measured = is_measured(first, second);
     tick.late = first.late || second.late;
     tick.value_arcsec = value_arcsec;
     tick.variance_arcsec2 = rounding_arcsec2(gyro, borders.start, borders.end) + walk_arcsec2(gyro);
     tick.mode = second.mode;
     tick.half[0].sign = tick.sign = static_cast<std::int8_t>(first.bias_sign * first.mode);
     tick.half[1].sign = static_cast<std::int8_t>(second.bias_sign * second.mode);
-    if (!(first.loop_closed && second.loop_closed)) tick.flags |= flag_loop_unlocked;
-    if (!(first.valid && second.valid)) tick.flags |= flag_invalid;
-    if (tick.measured && first.mode != second.mode) {
+    if (!tick.measured) {
+        if (!(first.loop_closed && second.loop_closed)) tick.flags |= flag_loop_unlocked;
+        if (!(first.valid && second.valid)) tick.flags |= flag_invalid;
+    } else if (first.mode != second.mode) {
         tick.flags |= flag_mode_mixed;
         tick.variance_arcsec2 = infinity;
     }
@@ -242,7 +242,8 @@ AngleSample complete_tick(const GyroCompensationConfig& config, GyroCompensation
     const Borders borders{state.border, border_of(first), border_of(second)};
     state.border = borders.end;
     const std::int32_t parts = parts_between(borders.start, borders.end);
-    const bool is_bridged = !is_measured(first, second) && config.bridge.method != BridgeMethod::none;
+    tick.measured = is_measured(first, second);
+    const bool is_bridged = !tick.measured && config.bridge.method != BridgeMethod::none;
     EdgeShiftOutput shifted;
     if (!is_bridged) shifted = step(config.gyro, state.edges, first, second, parts);
     assemble(config.gyro, first, second, borders, shifted.value_arcsec, tick);
@@ -304,10 +305,9 @@ AngleSample complete_tick(const GyroCompensationConfig& config, GyroCompensation
     }
     AngleSample sample = step(config.gyro, bridge_of(config), state.bridge, tick);
     const GapReport& gap = sample.gap;
-    const double sq = gap.sigma_sum_arcsec * gap.sigma_sum_arcsec;
-    if (sample.has_gap && gap.mode_changed && is_finite(sq)) {
+    if (sample.has_gap && gap.mode_changed && is_finite(square(gap.sigma_sum_arcsec))) {
         if (state.n_switches < remembered_switches) ++state.n_switches;
-        state.switch_error_arcsec2 += (sq - state.switch_error_arcsec2) / static_cast<double>(state.n_switches);
+        state.switch_error_arcsec2 += (square(gap.sigma_sum_arcsec) - state.switch_error_arcsec2) / state.n_switches;
     }
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
     state.angle.add(counted, config.gyro.scale.value(), sample.dtheta_arcsec, tick.measured ? parts : 0);
