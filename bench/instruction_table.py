@@ -19,9 +19,9 @@ TOLERANCE_OTHER_COMPILER = 0.5
 
 # Sources that are part of a module of another name. What several modules share is charged to the function that uses it.
 PART_OF = {
-    **dict.fromkeys(["gap_bridge_config", "gap_bridge_state", "gap_interpolation", "polynomial_fit", "gap_tick", "gap_switch",
+    **dict.fromkeys(["gap_bridge_config", "gap_bridge_state", "gap_interpolation", "polynomial_fit", "gap_switch",
                      "switch_job", "handover"], "gap_bridge"),
-    **dict.fromkeys(["triangle", "learnt_motion", "light_spline", "switch_estimate", "switch_window",
+    **dict.fromkeys(["triangle", "learnt_motion", "light_spline", "switch_estimate", "switch_window", "bank_kernel",
                      "walk_kernel", "window_covariance"], "estimate"),
     **dict.fromkeys(["gyro_observation", "monitors", "health"], "gyro_control"),
     "ellipse_correction": "fringe_readout",

@@ -35,18 +35,9 @@ GyroCompensationFault check(const CompensationConstants& g) noexcept {
     return light ? Fault::none : Fault::relock;
 }
 
-double beyond_square(const LossBend& bend, double sq_lambda2) noexcept {
-    return square(sq_lambda2) * (bend.term[0] + sq_lambda2 * (bend.term[1] + sq_lambda2 * bend.term[2]));
-}
-
-double most_over_square(const LossBend& bend, double sq_lambda2) noexcept {
-    return 1.0 +
-           sq_lambda2 * (size(bend.term[0]) + sq_lambda2 * (size(bend.term[1]) + sq_lambda2 * size(bend.term[2])));
-}
-
-double slope_over_square(const LossBend& bend, double sq_lambda2) noexcept {
-    return 1.0 +
-           sq_lambda2 * (2.0 * bend.term[0] + sq_lambda2 * (3.0 * bend.term[1] + sq_lambda2 * 4.0 * bend.term[2]));
+double most_loss(const LossBend& bend, double sq_lambda2) noexcept {
+    const auto& [b0, b1, b2] = bend.term;
+    return loss_at({{size(b0), size(b1), size(b2)}}, sq_lambda2).value;
 }
 
 double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen) noexcept {
@@ -55,8 +46,8 @@ double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen)
     const double spread_sq = seen.mean_sq_lambda2 - square(seen.mean_lambda) - noise_sq;
     const double spread = spread_sq > 0.0 ? square_root(spread_sq) : 0.0;
     const double middle = seen.mean_lambda - gyro.centre.value();
-    return 0.5 *
-           (beyond_square(gyro.bend, square(middle + spread)) + beyond_square(gyro.bend, square(middle - spread)));
+    const double above = square(middle + spread), below = square(middle - spread);
+    return 0.5 * (loss_at(gyro.bend, above).value - above + loss_at(gyro.bend, below).value - below);
 }
 
 Hertz bias_at(const CompensationConstants& gyro, Celsius temperature) noexcept {

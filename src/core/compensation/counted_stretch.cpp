@@ -48,27 +48,16 @@ void begin(CountedStretchState& s, std::int8_t mode, const EdgeShiftState& edges
 // Without shifts exactly K c.
 double angle(const CompensationConstants& gyro, const CountedStretchState& s, Hertz bias, const HalfRecord& last,
              EdgeShiftState& edges) noexcept {
-    const std::int32_t end = last.edge_offset_ticks;
     const double counts = counts_and_parts(s.counts, parts_between(s.start_border, border_of(last)));
-    const double scale = gyro.scale.value();
     const double area = plateau_per_tick(gyro, bias) * as_double(s.area_ticks);
-    const double turn = (counts - area) / as_double(s.n_ticks);
-    const double ticks = gyro.tick.value() * gyro.timer.value();
-    const double start_arcsec = s.start.follows ? s.start.beyond_arcsec : scale * turn * (s.start.offset_ticks / ticks);
-    const double end_arcsec = scale * turn * (end / ticks);
-    edges.follows = true;
-    edges.turn_counts = turn;
-    edges.beyond_arcsec = end_arcsec;
-    return scale * counts - scale * area + start_arcsec - end_arcsec;
+    edges = s.start;
+    return even_angle(gyro, edges, counts, area, last.edge_offset_ticks, as_double(s.n_ticks));
 }
 
 }  // namespace
 
 double detuning_sq(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
-    if (!(half.detuning_sq_lambda2 > 0.0)) return 0.0;
-    const double noise = gyro.light_noise.value();
-    return about(gyro.centre,
-                 true_moments(gyro.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise * noise));
+    return half.detuning_sq_lambda2 > 0.0 ? about(gyro.centre, moments_of(gyro, half)) : 0.0;
 }
 
 CountedStretch step(const CompensationConstants& gyro, CountedStretchState& state, const HalfRecord& first,
@@ -86,7 +75,7 @@ CountedStretch step(const CompensationConstants& gyro, CountedStretchState& stat
     // Without either nothing bounds the false drift.
     if (!state.broken && (state.known_before || state.seen))
         out = {state.n_ticks, angle(gyro, state, bias, second, edges),
-               (state.max_sq_lambda2 - state.min_sq_lambda2) * most_over_square(gyro.bend, state.max_sq_lambda2)};
+               most_loss(gyro.bend, state.max_sq_lambda2) - most_loss(gyro.bend, state.min_sq_lambda2)};
     state.n_ticks = 0;
     const double last_sq_lambda2 = detuning_sq(gyro, second);
     if (last_sq_lambda2 > 0.0 && is_finite(last_sq_lambda2))
@@ -98,8 +87,8 @@ void begin_anew(CountedStretchState& state, double detuning_sq_lambda2) noexcept
     state.n_ticks = 0;
     state.uncovered = 0;
     state.known_before = true;
-    state.min_sq_lambda2 = state.max_sq_lambda2 = 0.0;
-    see_detuning(state, detuning_sq_lambda2);
+    const bool is_known = detuning_sq_lambda2 > 0.0 && is_finite(detuning_sq_lambda2);
+    state.min_sq_lambda2 = state.max_sq_lambda2 = is_known ? detuning_sq_lambda2 : 0.0;
 }
 
 }  // namespace zlg::core

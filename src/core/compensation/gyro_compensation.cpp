@@ -33,23 +33,21 @@ struct Borders {
     Border end{};
 };
 
-TickInput assemble(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
-                   const Borders& borders, double value_arcsec) noexcept {
-    TickInput tick;
-    tick.measured = is_measured(first, second);
+void assemble(const CompensationConstants& gyro, const HalfRecord& first, const HalfRecord& second,
+              const Borders& borders, double value_arcsec, TickInput& tick) noexcept {
     tick.late = first.late || second.late;
     tick.value_arcsec = value_arcsec;
     tick.variance_arcsec2 = rounding_arcsec2(gyro, borders.start, borders.end) + walk_arcsec2(gyro);
     tick.mode = second.mode;
     tick.half[0].sign = tick.sign = static_cast<std::int8_t>(first.bias_sign * first.mode);
     tick.half[1].sign = static_cast<std::int8_t>(second.bias_sign * second.mode);
-    if (!(first.loop_closed && second.loop_closed)) tick.flags |= flag_loop_unlocked;
-    if (!(first.valid && second.valid)) tick.flags |= flag_invalid;
-    if (tick.measured && first.mode != second.mode) {
+    if (!tick.measured) {
+        if (!(first.loop_closed && second.loop_closed)) tick.flags |= flag_loop_unlocked;
+        if (!(first.valid && second.valid)) tick.flags |= flag_invalid;
+    } else if (first.mode != second.mode) {
         tick.flags |= flag_mode_mixed;
         tick.variance_arcsec2 = infinity;
     }
-    return tick;
 }
 
 // Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide
@@ -198,9 +196,11 @@ constexpr double law_part = 0.03;
 // exceeds the rounding of the counter, as in a re-lock, it is subtracted if the light was read throughout, and in any
 // case the sum is rough.
 void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& first,
-                   const HalfRecord& second, const Borders& borders, const EdgeShiftState& edges_before,
-                   TickInput& tick) noexcept {
+                   const HalfRecord& second, const Borders& borders, TickInput& tick) noexcept {
     const CompensationConstants& gyro = config.gyro;
+    // The stretch sets them where it knows the sum.
+    const EdgeShiftState edges_before = state.edges;
+    state.edges = {.offset_ticks = second.edge_offset_ticks};
     const Hertz bias = bias_at(gyro, Celsius{first.temperature_c});
     const CountedStretch known =
         step(gyro, state.stretch, first, second, bias, edges_before, state.edges, borders.start);
@@ -209,40 +209,44 @@ void set_known_sum(const GyroCompensationConfig& config, GyroCompensationState& 
     const double drift_arcsec = unit * known.fall_lambda2;
     const double rounding = rounding_arcsec2(gyro, state.stretch.start_border, borders.end);
     double drift_variance = drift_arcsec * drift_arcsec;
-    tick.known_ticks = known.n_ticks;
-    tick.known_arcsec = known.angle_arcsec;
+    // More are a stretch of months.
+    tick.known.ticks = known.n_ticks < INT32_MAX ? static_cast<std::int32_t>(known.n_ticks) : 0;
+    tick.known.arcsec = known.angle_arcsec;
     const bool settles = !(drift_variance <= rounding_arcsec2(gyro));
     if (settles && state.stretch.seen) {
-        tick.known_arcsec += unit * state.stretch.deficit_lambda2;
+        tick.known.arcsec += unit * state.stretch.deficit_lambda2;
         drift_variance = law_part * law_part * drift_variance + unit * unit * state.stretch.deficit_variance_lambda4;
     }
-    tick.known_is_rough = settles;
+    tick.known.is_rough = settles;
     tick.known_drift_arcsec2 = drift_variance;
-    tick.known_variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
+    tick.known.variance_arcsec2 = rounding + walk_arcsec2(gyro) * as_double(known.n_ticks) + drift_variance;
     // What lock-in takes from the ticks at their mean rate is given back.
     const double turn = 0.5 * state.edges.turn_counts, of_bias = 0.5 * bias.value() * gyro.tick.value();
     const LostCounts lost = lost_to_lock_in(gyro, config.lock_in, turn + of_bias, turn - of_bias);
     const double scale = gyro.scale.value(), arcsec = scale * as_double(known.n_ticks);
     tick.variance_arcsec2 += scale * scale * lost.variance;
-    tick.known_arcsec += arcsec * lost.value;
-    tick.known_variance_arcsec2 += arcsec * arcsec * lost.variance;
+    tick.known.arcsec += arcsec * lost.value;
+    tick.known.variance_arcsec2 += arcsec * arcsec * lost.variance;
     // What `step` has concluded from the sum about the edges holds for an even bias.
     if (settles) break_off(state.edges);
 }
 
 // What is known of a tick is applied in the order in which it acts: edges and lock-in on the counts, a push of the
 // perimeter or the re-lock, the edges of faults, the magnetic drift. What remains goes to the gap interpolation.
-CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state,
-                                 const HalfRecord& second, LightSamples light) noexcept {
+AngleSample complete_tick(const GyroCompensationConfig& config, GyroCompensationState& state, const HalfRecord& second,
+                          LightSamples light) noexcept {
+    TickInput tick;
     const HalfRecord& first = state.first;
     state.has_first = false;
 
     const Borders borders{state.border, border_of(first), border_of(second)};
     state.border = borders.end;
-    const EdgeShiftState edges_before = state.edges;
     const std::int32_t parts = parts_between(borders.start, borders.end);
-    const EdgeShiftOutput shifted = step(config.gyro, state.edges, first, second, parts);
-    TickInput tick = assemble(config.gyro, first, second, borders, shifted.value_arcsec);
+    tick.measured = is_measured(first, second);
+    const bool is_bridged = !tick.measured && config.bridge.method != BridgeMethod::none;
+    EdgeShiftOutput shifted;
+    if (!is_bridged) shifted = step(config.gyro, state.edges, first, second, parts);
+    assemble(config.gyro, first, second, borders, shifted.value_arcsec, tick);
     take_light(config, state, second, light, 1);
     double half_excess = 0.0;
     if (tick.measured) {
@@ -256,8 +260,12 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
         const double excess = shifted.known_excess_counts - counts_and_parts(0, unequal);
         const RelockTick read{first, second, excess, tick.with_phase};
         tick.variance_arcsec2 += pushed_arcsec2(config.gyro, config.relock, state.relock, read, tick.variance_arcsec2);
-        const auto relock = step(config.gyro, config.relock, state.relock, read);
-        apply(config.relock, relock, tick);
+        state.first_waits = false;
+        if (state.relock.armed && state.relock.since_gap <= config.relock.ticks) {
+            const RelockDriftOutput relock = step(config.gyro, config.relock, state.relock, read);
+            apply(config.relock, relock, tick);
+            state.first_waits = relock.waiting;
+        }
         if (state.refused) {
             // The fault may have ended in its first half.
             tick.variance_arcsec2 += unseen_arcsec2(config.gyro);
@@ -270,17 +278,12 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
             state.bias_arcsec += (0.5 * tick.sign * half_excess - state.bias_arcsec) / state.n_bias;
         }
         half_excess -= 2.0 * tick.sign * state.bias_arcsec;
-        state.first_waits = relock.waiting;
         begin_anew(state.stretch, detuning_sq(config.gyro, second));
     } else {
         const bool moves = !(first.loop_closed && second.loop_closed);
         // What is not corrected is uncertain only where the perimeter may have moved.
         if (!config.relock.presumes || moves || is_refused(first) || is_refused(second)) enter_gap(state.relock);
-        if (config.bridge.method != BridgeMethod::none) {
-            break_off(state.edges);
-            // After `break_off`: it sets the edges again where it knows the sum.
-            set_known_sum(config, state, first, second, borders, edges_before, tick);
-        }
+        if (is_bridged) set_known_sum(config, state, first, second, borders, tick);
         // The fault may have begun in the last half before the one in which a monitor saw it.
         const bool may_have_begun = is_refused(first) && !state.bridge.gap.open;
         if (may_have_begun) tick.amend_variance_arcsec2 = unseen_arcsec2(config.gyro);
@@ -300,17 +303,15 @@ CompensationOutput complete_tick(const GyroCompensationConfig& config, GyroCompe
             read_lit_half(config, state, second, borders.middle, borders.end, tick.half[1]);
         }
     }
-    CompensationOutput out{.has_sample = true, .sample = step(config.gyro, bridge_of(config), state.bridge, tick)};
-    const GapReport& gap = out.sample.gap;
-    const double sq = gap.sigma_sum_arcsec * gap.sigma_sum_arcsec;
-    if (out.sample.has_gap && gap.mode_changed && is_finite(sq)) {
+    AngleSample sample = step(config.gyro, bridge_of(config), state.bridge, tick);
+    const GapReport& gap = sample.gap;
+    if (sample.has_gap && gap.mode_changed && is_finite(square(gap.sigma_sum_arcsec))) {
         if (state.n_switches < remembered_switches) ++state.n_switches;
-        state.switch_error_arcsec2 += (sq - state.switch_error_arcsec2) / static_cast<double>(state.n_switches);
+        state.switch_error_arcsec2 += (square(gap.sigma_sum_arcsec) - state.switch_error_arcsec2) / state.n_switches;
     }
     const std::int64_t counted = tick.measured ? first.counts + second.counts : 0;
-    state.angle.add(counted, config.gyro.scale.value(), out.sample.dtheta_arcsec, tick.measured ? parts : 0);
-    out.angle_arcsec = state.angle.value_arcsec(config.gyro.scale.value());
-    return out;
+    state.angle.add(counted, config.gyro.scale.value(), sample.dtheta_arcsec, tick.measured ? parts : 0);
+    return sample;
 }
 
 }  // namespace
@@ -338,7 +339,9 @@ CompensationOutput step(const GyroCompensationConfig& config, GyroCompensationSt
     if (state.has_first) {
         HalfRecord second = half;
         sanitise(config, state, second);
-        return complete_tick(config, state, second, light);
+        return {.has_sample = true,
+                .sample = complete_tick(config, state, second, light),
+                .angle_arcsec = state.angle.value_arcsec(config.gyro.scale.value())};
     }
     HalfRecord& first = state.first;
     first = half;

@@ -81,7 +81,7 @@ TEST(CompensationConstants, TermsBeyondTheSquareAreMeansOverTwoGroups) {
         g.bend.term[k] = -7.0;
         const double expected = -3.5 * (std::pow(0.18, 4 + 2 * k) + std::pow(0.08, 4 + 2 * k));
         EXPECT_NEAR(beyond_square(g, {.mean_lambda = 0.15, .mean_sq_lambda2 = mean_sq}), expected, 1e-15);
-        EXPECT_DOUBLE_EQ(most_over_square(g.bend, 0.04), 1.0 + 7.0 * std::pow(0.04, 1 + k));
+        EXPECT_DOUBLE_EQ(most_loss(g.bend, 0.04), 0.04 + 7.0 * std::pow(0.04, 2 + k));
     }
     EXPECT_EQ(beyond_square(Constants{}, {.mean_lambda = 0.1, .mean_sq_lambda2 = 0.02}), 0.0);
 }

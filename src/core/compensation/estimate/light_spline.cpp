@@ -153,41 +153,25 @@ LightHalf LightFit::half(int h) const noexcept {
     half.first = span.first;
     for (int k = 0; k < 4; ++k) {
         const std::array<double, 4> value = values_at(span, h + gauss_point[k]);
+        const double x = dot(value.data(), term_.data() + half.first, 4);
+        const Loss loss = loss_at(bend_, square(x));
+        half.value += gauss_weight[k] * loss.value;
         unsigned i = 0;
-        for (unsigned a = 0; a < 4; ++a)
-            for (unsigned b = 0; b <= a; ++b) half.product[i++] += gauss_weight[k] * value[a] * value[b];
+        for (unsigned a = 0; a < 4; ++a) {
+            half.slope[a] += gauss_weight[k] * loss.slope * x * value[a];
+            for (unsigned b = 0; b <= a; ++b)
+                half.product[i++] += gauss_weight[k] * loss.curvature * value[a] * value[b];
+        }
     }
-    for (int a = 0; a < 4; ++a)
-        for (int b = 0; b < 4; ++b)
-            half.slope[static_cast<unsigned>(a)] +=
-                half.product[static_cast<unsigned>(entry(a, b))] * term_[static_cast<unsigned>(half.first + b)];
-    for (int k = 0; k < 4 && bend_ != LossBend{}; ++k) bend(values_at(span, h + gauss_point[k]), gauss_weight[k], half);
     return half;
 }
 
-void LightFit::bend(const std::array<double, 4>& value, double weight, LightHalf& half) const noexcept {
-    double x = 0.0;
-    for (unsigned a = 0; a < 4; ++a) x += value[a] * term_[static_cast<unsigned>(half.first) + a];
-    const double sq = square(x);
-    const auto& [b0, b1, b2] = bend_.term;
-    const double slope = x * (slope_over_square(bend_, sq) - 1.0);
-    const double curvature = sq * (6.0 * b0 + sq * (15.0 * b1 + sq * 28.0 * b2));
-    half.beyond += weight * (beyond_square(bend_, sq) - x * slope);
-    unsigned i = 0;
-    for (unsigned a = 0; a < 4; ++a) {
-        half.slope[a] += weight * slope * value[a];
-        for (unsigned b = 0; b <= a; ++b) half.product[i++] += weight * curvature * value[a] * value[b];
-    }
-}
-
 double LightFit::angle(const LightHalf& half) const noexcept {
-    double sum = half.beyond;
-    for (int a = 0; a < 4; ++a) {
-        sum += half.slope[static_cast<unsigned>(a)] * term_[static_cast<unsigned>(half.first + a)];
+    double sum = half.value;
+    for (int a = 0; a < 4; ++a)
         for (int b = 0; b < 4; ++b)
             sum -= half.product[static_cast<unsigned>(entry(a, b))] *
                    covariance_[static_cast<unsigned>(entry(half.first + a, half.first + b))];
-    }
     return sum;
 }
 

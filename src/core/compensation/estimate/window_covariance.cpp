@@ -79,7 +79,7 @@ double alternation(const SwitchWindow& window, const WindowRow& row) noexcept {
 LightHalf signed_by(int sign, LightHalf half) noexcept {
     for (double& x : half.product) x *= sign;
     for (double& x : half.slope) x *= sign;
-    half.beyond *= sign;
+    half.value *= sign;
     return half;
 }
 

@@ -1,7 +1,6 @@
 #include <zlg/core/compensation/gap_bridge.hpp>
 
 #include <algorithm>
-#include <memory>
 
 #include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/handover.hpp>
@@ -16,25 +15,22 @@
 namespace zlg::core {
 namespace {
 
+// Eq (14) for the present gap; without a point before it there is none.
+PolynomialFit extrapolation_of(const GapBridgeConfig& config, const GapBridgeState& state) noexcept {
+    const Gap& gap = state.gap.gap;
+    return fit_beside(state, gap, config.extrapolation_points, 0, gap.first_tick, order_of(config.method));
+}
+
 void begin_gap(const GapBridgeConfig& config, GapBridgeState& state, std::int64_t tick) noexcept {
     OpenGap& open = state.gap;
     open.open = true;
     open.gap.first_tick = tick;
-    Points points;
-    points.collect(state, tick - 1, 1 - config.extrapolation_points, 0, tick);
-    if (points.n == 0) return;
+    const PolynomialFit fit = extrapolation_of(config, state);
+    if (fit.n() == 0) return;
     open.gap.has_before = true;
     open.gap.mode_before = at(state, tick - 1).row.mode;
-    const int order = order_of(config.method);
-    std::construct_at(&open.fit, points.position, points.n, order);
-    open.lower_order = open.fit.order() < order;
-    const double n = points.n;
-    for (unsigned k = 0; k < static_cast<unsigned>(points.n); ++k) {
-        const HistoryTick& point = at(state, tick - 1 + points.position[k]);
-        open.value_arcsec[k] = point.row.dtheta_final_arcsec;
-        open.variance_arcsec2[k] = point.variance_arcsec2;
-        open.constant_arcsec += open.value_arcsec[k] / n;
-    }
+    for (int k = 0; k < fit.n(); ++k)
+        open.constant_arcsec += at(state, tick - 1 + fit.position(k)).row.dtheta_final_arcsec / fit.n();
 }
 
 // A row of a gap without an estimate.
@@ -46,29 +42,18 @@ void set_unrepaired(const OpenGap& open, AngleRow& row) noexcept {
 
 // dtheta of the gap's tick j, and what its final value is if the log ends here.
 void extrapolate(const CompensationConstants& gyro, const GapBridgeConfig& config, const GapBridgeState& state,
-                 HistoryTick& entry, std::int32_t j) noexcept {
+                 std::int32_t j, AngleRow& row) noexcept {
     const OpenGap& open = state.gap;
-    AngleRow& row = entry.row;
     row.flags |= flag_extrapolated;
     if (!open.gap.has_before || j > max_gap_ticks(config)) {
         row.dtheta_arcsec = open.constant_arcsec;
         return set_unrepaired(open, row);
     }
-    const double usual = rounding_arcsec2(gyro, state.with_phase);
-    const FitWeights w = open.fit.weights(j);
-    double sum = 0.0;
-    double variance = 0.0;
-    for (unsigned k = 0; k < static_cast<unsigned>(open.fit.n()); ++k) {
-        sum += w[k] * open.value_arcsec[k];
-        variance += w[k] * w[k] * open.variance_arcsec2[k];
-        // Neighbouring ticks share a rounding, so their covariance is negative.
-        if (neighbours(open.fit, static_cast<int>(k)))
-            variance -=
-                shared_rounding(usual, open.variance_arcsec2[k - 1], open.variance_arcsec2[k]) * w[k] * w[k - 1];
-    }
-    row.dtheta_arcsec = row.dtheta_final_arcsec = sum;
-    row.sigma_arcsec = deviation(variance);
-    if (open.lower_order) row.flags |= flag_lower_order;
+    const PolynomialFit fit = extrapolation_of(config, state);
+    const PolynomialSum sum = sum_of(gyro, state, open.gap, fit, fit.weights(j));
+    row.dtheta_arcsec = row.dtheta_final_arcsec = sum.value_arcsec;
+    row.sigma_arcsec = deviation(sum.variance_arcsec2);
+    if (fit.order() < order_of(config.method)) row.flags |= flag_lower_order;
 }
 
 // The gap has become too long. Only its first ticks were delivered with another than their final value, and they may
@@ -99,7 +84,7 @@ void add_gap_tick(const CompensationConstants& gyro, const GapBridgeConfig& conf
     }
     const int longest = max_gap_ticks(config);
     const auto j = static_cast<std::int32_t>(gap.n <= longest ? gap.n : longest + 1);
-    extrapolate(gyro, config, state, entry, j);
+    extrapolate(gyro, config, state, j, entry.row);
     note_known(rounding_arcsec2(gyro, state.with_phase), input, gap, entry);
     if (gap.n <= longest) return;
     // Its rows become final before its end is known.
@@ -139,37 +124,49 @@ double relock_beyond(const CompensationConstants& gyro, const GapBridgeConfig& c
     for (std::int64_t tick = first; tick < end; ++tick) {
         const HistoryTick& entry = at(state, tick);
         const bool is_missing = config.relock == RelockMethod::none && (entry.row.flags & flag_relock_uncorrected) != 0;
-        if (entry.measured && (tick >= from || is_missing)) sum += entry.relock_variance_arcsec2;
+        if (entry.read.measured && (tick >= from || is_missing)) sum += entry.read.relock_variance_arcsec2;
     }
     const std::int64_t to_come = first + config.relock_ticks - end;
     const HistoryTick& last = at(state, end - 1);
     if (to_come > 0 && (last.row.flags & flag_relock_corrected) != 0)
-        sum += as_double(to_come) * last.relock_variance_arcsec2;
+        sum += as_double(to_come) * last.read.relock_variance_arcsec2;
     return sum;
 }
 
-// Give a gap its final rows by a polynomial, and its report their deviation.
+// Eq (15): give a gap its final rows by a polynomial, and its report their deviation.
 //
 // return  final minus delivered.
-ExactSum fit(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, const Gap& gap,
-             std::int64_t end, GapReport& report) noexcept {
+ExactSum interpolate(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
+                     const Gap& gap, std::int64_t end, GapReport& report) noexcept {
     const int order = order_of(config.method);
-    const GapSums sums = sums_of(gyro, config, state, gap, end, order);
-    const std::int64_t behind = gap.first_tick + gap.n + config.points_after;
-    report.sigma_sum_arcsec =
-        deviation(sums.angle_variance_arcsec2 + relock_beyond(gyro, config, state, gap, behind, end));
+    // Through those after it alone in reversed time.
+    const PolynomialFit fit = gap.has_before
+                                  ? fit_beside(state, gap, config.points_before, config.points_after, end, order)
+                                  : fit_beside(state, gap, 0, config.extrapolation_points, end, order);
     std::uint32_t gained = gap.has_before ? std::uint32_t{flag_interpolated} : 0u;
     // Also where the polynomial stands in for an estimate.
-    if (is_estimated(config) || sums.fit.order() < order) gained |= flag_lower_order;
+    if (is_estimated(config) || fit.order() < order) gained |= flag_lower_order;
     ExactSum difference;
-    for (unsigned j = 0; j < static_cast<unsigned>(gap.n); ++j) {
-        AngleRow& row = at(state, gap.first_tick + j).row;
-        row.dtheta_final_arcsec = sums.value_arcsec[j];
-        row.sigma_arcsec = deviation(sums.variance_arcsec2[j]);
+    FitWeights of_angle{};
+    for (std::int32_t j = 1; j <= gap.n; ++j) {
+        const FitWeights weight = fit.weights(j);
+        const PolynomialSum sum = sum_of(gyro, state, gap, fit, weight);
+        for (std::size_t k = 0; k < weight.size(); ++k) of_angle[k] += weight[k];
+        AngleRow& row = at(state, gap.first_tick + j - 1).row;
+        row.dtheta_final_arcsec = sum.value_arcsec;
+        row.sigma_arcsec = deviation(sum.variance_arcsec2);
         row.flags = (row.flags & ~(std::uint32_t{flag_unrepaired} | flag_lower_order)) | gained;
         if (!is_finite(row.sigma_arcsec)) row.flags |= flag_unrepaired;
         difference.add_difference(row.dtheta_final_arcsec, row.dtheta_arcsec);
     }
+    double variance = sum_of(gyro, state, gap, fit, of_angle).variance_arcsec2;
+    // The error of a re-lock correction is in the point, and stays in the angle behind the gap.
+    for (int k = 0; k < fit.n(); ++k)
+        if (fit.position(k) > gap.n)
+            variance += (2.0 * of_angle[static_cast<unsigned>(k)] + 1.0) *
+                        at(state, gap.first_tick - 1 + fit.position(k)).read.relock_variance_arcsec2;
+    const std::int64_t behind = gap.first_tick + gap.n + config.points_after;
+    report.sigma_sum_arcsec = deviation(variance + relock_beyond(gyro, config, state, gap, behind, end));
     return difference;
 }
 
@@ -198,17 +195,16 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
               .mode_after = pending.mode_after,
               .mode_changed = pending.mode_after != gap.mode_before,
               .sigma_sum_arcsec = infinity};
-    if (pending.asked && (!is_estimated(config) || gap.n > max_gap_ticks(config))) give_up(state, gap);
+    if (!is_estimated(config) || gap.n > max_gap_ticks(config)) give_up(state, pending);
     if (config.method == BridgeMethod::none) return gap.has_before;
     ExactSum difference = gap.final_minus_delivered_arcsec;
     const bool is_short = gap.n <= max_gap_ticks(config);
     bool is_estimate = false;
     if (is_short) {
-        const SwitchAngle found = pending.asked && is_estimated(config) ? take(gyro, state, gap, late) : SwitchAngle{};
+        const SwitchAngle found = take(gyro, state, pending, late);
         is_estimate = found.known;
         if (found.known && !gap.moves) gap.variance_arcsec2 = found.variance_arcsec2;
-        if (found.known) state.scale = found.scale;
-        difference = found.known ? found.gap_arcsec : fit(gyro, config, state, gap, end, report);
+        difference = found.known ? found.gap_arcsec : interpolate(gyro, config, state, gap, end, report);
         if (found.known) report.sigma_sum_arcsec = deviation(found.variance_arcsec2);
         pending.correction_arcsec.add(found.after_arcsec);
         const KnownShift known =
@@ -261,9 +257,9 @@ void amend_previous(GapBridgeState& state, const TickInput& input, std::int64_t 
     const double before_arcsec = entry.row.dtheta_final_arcsec;
     entry.row.dtheta_final_arcsec += input.amend_arcsec;
     entry.row.relock_arcsec -= input.amend_arcsec;
-    entry.variance_arcsec2 += input.amend_variance_arcsec2;
-    entry.relock_variance_arcsec2 += input.amend_variance_arcsec2;
-    entry.row.sigma_arcsec = square_root(entry.variance_arcsec2);
+    entry.read.variance_arcsec2 += input.amend_variance_arcsec2;
+    entry.read.relock_variance_arcsec2 += input.amend_variance_arcsec2;
+    entry.row.sigma_arcsec = square_root(entry.read.variance_arcsec2);
     entry.row.flags |= input.amend_flags;
     // The tick was the first after the gap that ended last.
     if (state.n_pending == 0) return;
@@ -276,8 +272,7 @@ void resolve_due(const CompensationConstants& gyro, const GapBridgeConfig& confi
                  std::int64_t tick, bool late, AngleSample& sample) noexcept {
     for (int k = 0; k < state.n_pending; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
-        if (pending.due_tick - pending.ready_before == tick)
-            pending.asked = ask(gyro, config, state, pending.gap, tick);
+        if (pending.due_tick - pending.ready_before == tick) ask(gyro, config, state, pending, tick);
         if (pending.is_reported || pending.due_tick > tick) continue;
         GapReport report;
         if (!resolve(gyro, config, state, pending, tick, late, report)) continue;
@@ -300,15 +295,11 @@ AngleSample step(const CompensationConstants& gyro, const GapBridgeConfig& confi
         sample.final_row = at(state, state.next_final++).row;
     }
     HistoryTick& entry = at(state, tick);
-    entry = HistoryTick{
-        .row = {.tick = tick, .relock_arcsec = input.relock_arcsec, .mode = input.mode, .flags = input.flags},
-        .variance_arcsec2 = input.variance_arcsec2,
-        .relock_variance_arcsec2 = input.relock_variance_arcsec2,
-        .half = input.half,
-        .measured = input.measured,
-        .settled = input.settled,
-        .with_phase = input.with_phase,
-        .by_phase = state.with_phase};
+    entry.read = input;
+    entry.row = {.tick = tick, .relock_arcsec = input.relock_arcsec, .mode = input.mode, .flags = input.flags};
+    entry.share = 0.0;
+    entry.by_phase = state.with_phase;
+    entry.known = {};
     if (input.measured) {
         state.common_arcsec2 = input.common_arcsec2;
         if (state.gap.open) end_gap(gyro, config, state, input, tick);
@@ -335,7 +326,7 @@ DrainOutput drain(const CompensationConstants& gyro, const GapBridgeConfig& conf
     for (int k = 0; k < state.n_pending && !out.has_gap; ++k) {
         PendingGap& pending = state.pending[static_cast<unsigned>(k)];
         if (pending.is_reported) continue;
-        if (!pending.asked) pending.asked = ask(gyro, config, state, pending.gap, state.next_tick);
+        if (pending.job < 0) ask(gyro, config, state, pending, state.next_tick);
         work(gyro, config, state);
         out.has_gap = resolve(gyro, config, state, pending, state.next_tick, false, out.gap);
     }

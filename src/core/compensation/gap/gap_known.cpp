@@ -89,14 +89,11 @@ void settle(GapBridgeState& state, const Gap& gap, const KnownStretch& s, double
 }  // namespace
 
 void note_known(double rounding_arcsec2, const TickInput& input, Gap& gap, HistoryTick& entry) noexcept {
-    if (input.known_ticks <= 0 || input.known_ticks > gap.n - gap.known_ticks) return;
-    entry.known_ticks = static_cast<std::int32_t>(input.known_ticks);
-    entry.known_arcsec = input.known_arcsec;
-    entry.known_variance_arcsec2 = input.known_variance_arcsec2;
-    entry.known_is_rough = input.known_is_rough;
-    entry.variance_arcsec2 += input.known_drift_arcsec2;
-    entry.relock_variance_arcsec2 = input.known_drift_arcsec2;
-    if (!input.known_is_rough) count_in(rounding_arcsec2, input.known_ticks, input.known_variance_arcsec2, gap);
+    if (input.known.ticks <= 0 || input.known.ticks > gap.n - gap.known_ticks) return;
+    entry.known = input.known;
+    entry.read.variance_arcsec2 += input.known_drift_arcsec2;
+    entry.read.relock_variance_arcsec2 = input.known_drift_arcsec2;
+    if (!input.known.is_rough) count_in(rounding_arcsec2, input.known.ticks, input.known.variance_arcsec2, gap);
 }
 
 KnownShift settle_known(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
@@ -108,22 +105,22 @@ KnownShift settle_known(const CompensationConstants& gyro, const GapBridgeConfig
     double beside_arcsec2 = 0.0;
     for (std::int64_t t = first; t <= last; ++t) {
         HistoryTick& entry = at(state, t);
-        const std::int64_t n = entry.known_ticks;
+        const std::int64_t n = entry.known.ticks;
         if (n == 0) continue;
-        entry.known_ticks = 0;
+        entry.known.ticks = 0;
         const std::int64_t start = t + 1 - n;
         const std::int64_t begin = start < state.next_final ? state.next_final : start;
-        const KnownStretch s{begin, t, begin - start, entry.known_arcsec, entry.variance_arcsec2};
+        const KnownStretch s{begin, t, begin - start, entry.known.arcsec, entry.read.variance_arcsec2};
         // What the bridge says of the stretch against its sum: its rows as if independent, and (3).
         double claimed_arcsec2 = 0.0;
         for (std::int64_t k = s.first; is_short && k <= s.last; ++k)
             claimed_arcsec2 += square(at(state, k).row.sigma_arcsec);
         const double off = is_short ? deficit_of(state, s, 0.0) : 0.0;
-        const bool contradicts = square(off) > outlier_sq * (entry.known_variance_arcsec2 + s.n() * claimed_arcsec2);
-        if (entry.known_is_rough) {
-            if (!contradicts && !(entry.known_variance_arcsec2 < claimed_arcsec2)) continue;
-            count_in(rounding_arcsec2(gyro, state.with_phase), n, entry.known_variance_arcsec2, gap);
-            out.variance_arcsec2 += entry.known_variance_arcsec2;
+        const bool contradicts = square(off) > outlier_sq * (entry.known.variance_arcsec2 + s.n() * claimed_arcsec2);
+        if (entry.known.is_rough) {
+            if (!contradicts && !(entry.known.variance_arcsec2 < claimed_arcsec2)) continue;
+            count_in(rounding_arcsec2(gyro, state.with_phase), n, entry.known.variance_arcsec2, gap);
+            out.variance_arcsec2 += entry.known.variance_arcsec2;
         }
         if (is_short) covered |= ((std::uint64_t{1} << n) - 1u) << (t + 1 - n - gap.first_tick);
         if (contradicts) beside_arcsec2 += square(off);

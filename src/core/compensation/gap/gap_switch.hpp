@@ -18,22 +18,21 @@ struct SwitchAngle {
     ExactSum gap_arcsec{};          // final minus delivered, of the gap
     ExactSum after_arcsec{};        // that of the ticks after it that are corrected
     double variance_arcsec2 = 0.0;  // of all these together
-    RelockScale scale{};
 };
 
-// Ask for the estimate of a gap, from the ticks before `end`. false: there is no point on one side, or no place for one
+// Ask for the estimate of a gap, from the ticks before `end`: where there is a point on both sides, and a place for one
 // more.
-[[nodiscard]] bool ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state,
-                       const Gap& gap, std::int64_t end) noexcept;
+void ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBridgeState& state, PendingGap& pending,
+         std::int64_t end) noexcept;
 
-// Take the estimate, and give the gap and the ticks after it their final values.
+// Take the estimate, if there is one, and give the gap and the ticks after it their final values.
 //
 // late  it is recorded as not ready, and is not taken.
-[[nodiscard]] SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, const Gap& gap,
+[[nodiscard]] SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, PendingGap& pending,
                                bool late) noexcept;
 
 // Nobody is to take it: the settings have changed.
-void give_up(GapBridgeState& state, const Gap& gap) noexcept;
+void give_up(GapBridgeState& state, PendingGap& pending) noexcept;
 
 // Variance of a tick about the mean rate, as learnt; infinite where nothing is.
 [[nodiscard]] double tick_variance(const GapBridgeState& state) noexcept;

@@ -30,7 +30,7 @@ void learn(const GapBridgeConfig& config, const HistoryTick& entry, LearntMotion
     }
     // Nothing is learnt from a tick that others have overwritten.
     const bool settled = entry.row.tick == tick && is_settled(entry);
-    const auto& half = entry.half;
+    const auto& half = entry.read.half;
     if (step_halves == 2)
         return add(motion, 2 * tick + 1, settled, half[0].angle_arcsec + half[1].angle_arcsec, forget_ticks);
     for (int k = 0; k < 2; ++k)
@@ -45,13 +45,13 @@ void learn_until(const GapBridgeConfig& config, GapBridgeState& state, std::uint
 }
 
 void correct_late(const CompensationConstants& gyro, SwitchJob& job) noexcept {
-    if (job.plan.n_late == 0) return;
-    const SwitchWindow& window = job.plan.window;
+    if (job.n_late == 0) return;
+    const SwitchWindow& window = job.window;
     const LightFit fit{window.light, gyro.light_noise.value(), gyro.bend};
-    if (!fit.is_known()) job.plan.n_late = 0;
+    if (!fit.is_known()) job.n_late = 0;
     const double unit = arcsec_per_lambda2(gyro, gyro.bias);
     int h = window.n_halves - window.light_start;
-    for (unsigned k = 0; k < static_cast<unsigned>(job.plan.n_late); ++k, h += 2) {
+    for (unsigned k = 0; k < static_cast<unsigned>(job.n_late); ++k, h += 2) {
         const LightHalf first = fit.half(h);
         const LightHalf second = fit.half(h + 1);
         const double variance =
@@ -72,7 +72,7 @@ void work(const CompensationConstants& gyro, const GapBridgeConfig& config, GapB
     for (SwitchJob* job = nullptr; (job = next_job(background)) != nullptr; n_ticks = taken(background.n_ticks)) {
         learn_until(config, state, static_cast<std::uint32_t>(job->asked_at));
         job->learnt = moments.n_windows >= few_windows;
-        job->found = estimate(gyro, job->plan.window, moments, job->scale, background.room, bank, pause);
+        job->found = estimate(gyro, job->window, moments, job->scale, background.room, bank, pause);
         correct_late(gyro, *job);
         if (!hand_over_if(job->state, JobState::asked, JobState::done)) hand_over(job->state, JobState::free);
     }

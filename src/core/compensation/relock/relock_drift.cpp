@@ -34,30 +34,17 @@ FalseAngle false_angle(double value_arcsec, double variance_arcsec2) noexcept {
     return possible && is_finite(variance_arcsec2) ? FalseAngle{true, value_arcsec, variance_arcsec2} : FalseAngle{};
 }
 
-// As the curve sees a half. `detuning` alone does not need the mean square: NaN then stands for no motion.
-TrueMoments moments(const CompensationConstants& g, const HalfRecord& half) noexcept {
-    return true_moments(g.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, square(g.light_noise.value()));
-}
-
 FalseAngle by_mean_square(const CompensationConstants& g, const RelockTick& t) noexcept {
-    const TrueMoments first_seen = moments(g, t.first), second_seen = moments(g, t.second);
-    const double first = about(g.centre, first_seen);
-    const double second = about(g.centre, second_seen);
-    if (!(first >= 0.0 && second >= 0.0 && first + second > 0.0)) return {};
-    if (!(first + second < square(max_detuning_lambda))) return {};
-    // Mean of n squares (dl + e)^2: variance (4 dl^2 s^2 + 2 s^4)/n; the measured mean holds dl^2 + s^2.
-    const double s2 = square(g.light_noise.value()) * 0.5 * (noise_gain(g, first_seen) + noise_gain(g, second_seen));
-    const double above = first + second - 2.0 * s2;
-    const auto steep = [&g](double sq_lambda2) { return sq_lambda2 * square(slope_over_square(g.bend, sq_lambda2)); };
-    const double steepness = (steep(first) + steep(second)) / (first + second);
-    const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 * steepness + 4.0 * s2 * s2) / g.light_samples;
+    const RecordedSquare first = recorded_square(g, t.first), second = recorded_square(g, t.second);
+    const double sum = t.first.detuning_sq_lambda2 + t.second.detuning_sq_lambda2;
+    if (!(first.known && second.known && sum > 0.0 && sum < square(max_detuning_lambda))) return {};
     const double unit = sign_of(t) * arcsec_per_lambda2(g, bias_of(g, t));
-    const double bent = beyond_square(g, second_seen) - beyond_square(g, first_seen);
-    return false_angle(unit * (second - first + bent), square(unit) * variance);
+    return false_angle(unit * (second.mean_sq_lambda2 - first.mean_sq_lambda2),
+                       square(unit) * (first.variance_lambda4 + second.variance_lambda4));
 }
 
 FalseAngle by_detuning(const CompensationConstants& g, const RelockTick& t) noexcept {
-    const TrueMoments first_seen = moments(g, t.first), second_seen = moments(g, t.second);
+    const TrueMoments first_seen = moments_of(g, t.first), second_seen = moments_of(g, t.second);
     const double first = first_seen.mean_lambda;
     const double second = second_seen.mean_lambda;
     const double rho = second / first;
@@ -76,7 +63,7 @@ FalseAngle by_detuning(const CompensationConstants& g, const RelockTick& t) noex
 
 // <dl^2> of the first half; negative where the light does not show it.
 double seen_lambda2(const CompensationConstants& g, const RelockTick& t) noexcept {
-    const TrueMoments seen = moments(g, t.first);
+    const TrueMoments seen = moments_of(g, t.first);
     const bool squared = t.first.detuning_sq_lambda2 > 0.0;
     // Where the detuning falls thirtyfold within the half, the square of its mean is about half of its mean square.
     const double sq = squared ? about(g.centre, seen) : 2.0 * square(seen.mean_lambda - g.centre.value());
@@ -91,7 +78,7 @@ double most_arcsec(const CompensationConstants& g, const RelockDriftState& s, co
     const double seen = seen_lambda2(g, t);
     const double presumed = 0.5 * square(max_detuning.value()) / (2.0 * as_double(s.since_gap) - 1.0);
     const double lambda2 = seen >= 0.0 ? seen : presumed;
-    return size(arcsec_per_lambda2(g, bias_of(g, t))) * most_over_square(g.bend, lambda2) * lambda2;
+    return size(arcsec_per_lambda2(g, bias_of(g, t))) * most_loss(g.bend, lambda2);
 }
 
 FalseAngle or_missing(FalseAngle found, double most_arcsec) noexcept {
@@ -173,9 +160,8 @@ double pushed_arcsec2(const CompensationConstants& gyro, const RelockDriftConfig
     if (state.armed && state.since_gap < config.ticks) return 0.0;
     if (config.method == RelockMethod::none || config.method == RelockMethod::frequency) return 0.0;
     const double unit = arcsec_per_lambda2(gyro, gyro.bias);
-    const double first_lambda2 = tick.first.detuning_sq_lambda2, second_lambda2 = tick.second.detuning_sq_lambda2;
-    const double change_lambda2 = second_lambda2 - first_lambda2 + beyond_square(gyro.bend, second_lambda2) -
-                                  beyond_square(gyro.bend, first_lambda2);
+    const double change_lambda2 = loss_at(gyro.bend, tick.second.detuning_sq_lambda2).value -
+                                  loss_at(gyro.bend, tick.first.detuning_sq_lambda2).value;
     if (square(unit * change_lambda2) <= hidden_part * variance_arcsec2) return 0.0;
     RelockDriftState closing{.armed = true};
     const FalseAngle left = step(gyro, config, closing, tick).tick;

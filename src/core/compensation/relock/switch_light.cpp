@@ -82,6 +82,13 @@ int read_samples(const CompensationConstants& gyro, const RelockProfileConfig& c
     return possible && on_curve ? static_cast<int>(n) : 0;
 }
 
+// Of the variance of a sample's noise: by the slope of the curve that the detuning has come through, here or in the
+// control.
+double noise_gain(const CompensationConstants& gyro, const TrueMoments& seen) noexcept {
+    if (gyro.record_curve.n_nodes != 0 || gyro.control_curve.n_nodes == 0) return square(seen.slope);
+    return square(slope_behind(gyro.control_curve, seen.mean_lambda));
+}
+
 }  // namespace
 
 void step(const CompensationConstants& gyro, const RelockProfileConfig& config, SwitchLight& state,
@@ -110,21 +117,22 @@ void step(const CompensationConstants& gyro, const RelockProfileConfig& config, 
     add(state.sums, state.n_halves++, std::span{lambda}.first(static_cast<std::size_t>(n)));
 }
 
-double noise_gain(const CompensationConstants& gyro, const TrueMoments& seen) noexcept {
-    if (gyro.record_curve.n_nodes != 0 || gyro.control_curve.n_nodes == 0) return square(seen.slope);
-    return square(slope_behind(gyro.control_curve, seen.mean_lambda));
+TrueMoments moments_of(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
+    return true_moments(gyro.record_curve, half.detuning_lambda, half.detuning_sq_lambda2,
+                        square(gyro.light_noise.value()));
 }
 
 RecordedSquare recorded_square(const CompensationConstants& gyro, const HalfRecord& half) noexcept {
     if (is_refused(gyro, half)) return {};
     const double noise_sq = square(gyro.light_noise.value());
-    const TrueMoments seen = true_moments(gyro.record_curve, half.detuning_lambda, half.detuning_sq_lambda2, noise_sq);
+    const TrueMoments seen = moments_of(gyro, half);
     const double from_centre = about(gyro.centre, seen);
     if (!(from_centre >= 0.0 && from_centre < square(max_detuning_lambda))) return {};
+    // Mean of n squares (dl + e)^2: variance (4 dl^2 s^2 + 2 s^4)/n; the measured mean holds dl^2 + s^2.
     const double s2 = noise_sq * noise_gain(gyro, seen);
     const double above = from_centre - s2;
-    const double steepness = square(slope_over_square(gyro.bend, above > 0.0 ? above : 0.0));
-    const double variance = (4.0 * (above > 0.0 ? above : 0.0) * s2 * steepness + 2.0 * s2 * s2) / gyro.light_samples;
+    const double sq = above > 0.0 ? above : 0.0;
+    const double variance = (4.0 * sq * s2 * square(loss_at(gyro.bend, sq).slope) + 2.0 * s2 * s2) / gyro.light_samples;
     if (!is_finite(variance)) return {};
     return {.known = true, .mean_sq_lambda2 = above + beyond_square(gyro, seen), .variance_lambda4 = variance};
 }

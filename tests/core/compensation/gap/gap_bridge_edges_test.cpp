@@ -13,7 +13,7 @@ TEST(GapBridgeEdges, TheSigmaOfAnExtrapolationHoldsTheSharedRounding) {
     const GapBridgeConfig linear{.method = BridgeMethod::linear, .extrapolation_points = 3};
     const auto expect = [](const GapBridgeConfig& config, const std::vector<double>& points, double scale, double of) {
         Log log;
-        for (const double v : points) log.push_back({.value_arcsec = 10.0, .variance_arcsec2 = v});
+        for (const double v : points) log.push_back({{.variance_arcsec2 = v}, 10.0});
         const int n = config.method == BridgeMethod::constant ? 2 : 1;
         const Delivered got = run(config, joined({log, gap(n)}), {.scale = Arcsec{scale}});
         for (std::size_t k = log.size(); k < got.rows.size(); ++k)
@@ -99,9 +99,9 @@ TEST(GapBridgeEdges, AnAmendedTickKeepsTheVarianceOfItsCorrectionsAsAPartOfTheWh
     GapBridgeState state;
     Delivered got;
     for (const TickInput& tick : log) step_into({}, state, tick, got);
-    EXPECT_EQ(state.history[0].relock_variance_arcsec2, 0.25 + 0.45);
-    EXPECT_EQ(state.history[0].variance_arcsec2, 1.8 + 0.45);
-    EXPECT_EQ(state.history[1].relock_variance_arcsec2, 0.0);
+    EXPECT_EQ(state.history[0].read.relock_variance_arcsec2, 0.25 + 0.45);
+    EXPECT_EQ(state.history[0].read.variance_arcsec2, 1.8 + 0.45);
+    EXPECT_EQ(state.history[1].read.relock_variance_arcsec2, 0.0);
 }
 
 TEST(GapBridgeEdges, BeforeTheFirstTickThereIsNothingToAmend) {

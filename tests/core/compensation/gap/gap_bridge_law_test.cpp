@@ -156,9 +156,9 @@ TEST(GapBridgeLaw, SumsDifferByTheRoundingResidualAlone) {
             for (int t = 0; t < n; ++t) {
                 TickInput tick = gap_tick();
                 if (t + 1 == n) {
-                    tick.known_ticks = n;
-                    tick.known_arcsec = random.uniform(-90.0, 90.0);
-                    tick.known_variance_arcsec2 = 1.8;
+                    tick.known.ticks = n;
+                    tick.known.arcsec = random.uniform(-90.0, 90.0);
+                    tick.known.variance_arcsec2 = 1.8;
                 }
                 step_into(config, state, tick, all);
             }

@@ -46,10 +46,12 @@ inline Delivered run(const GapBridgeConfig& config, const Log& log, const Compen
 // What the counter reads in a gap means nothing: it must show nowhere.
 inline constexpr double junk_arcsec = 1e6;
 
-inline TickInput measured_tick(double value_arcsec) { return {.value_arcsec = value_arcsec, .variance_arcsec2 = 1.8}; }
+inline TickInput measured_tick(double value_arcsec) { return {{.variance_arcsec2 = 1.8}, value_arcsec}; }
 
 inline TickInput gap_tick(std::int8_t mode = 1) {
-    return {.measured = false, .value_arcsec = junk_arcsec, .variance_arcsec2 = 1.8, .mode = mode};
+    TickInput tick{{.measured = false, .variance_arcsec2 = 1.8}, junk_arcsec};
+    tick.mode = mode;
+    return tick;
 }
 
 inline bool has(std::uint32_t flags, AngleFlag flag) { return (flags & flag) != 0; }

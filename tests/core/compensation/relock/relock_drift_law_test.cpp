@@ -213,6 +213,7 @@ TEST(RelockDriftLaw, AFalseAngleBeyondBeliefIsNotUsed) {
     config.gyro.scale = Arcsec{1e9};
     config.gyro.chi = 2.0;
     config.gyro.bias = Hertz{1e12};
+    config.gyro.light_noise = Wavelengths{0.0};  // so that a first half of 0 is one that was read
     ASSERT_EQ(check(config.gyro), GyroCompensationFault::none);
     for (const int sign : {1, -1})
         for (const double lambda2 : {1.0 - 0x1p-41, 1.0 + 0x1p-40}) {

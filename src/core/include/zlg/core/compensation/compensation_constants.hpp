@@ -17,11 +17,21 @@ struct LossBend {
     friend constexpr bool operator==(const LossBend&, const LossBend&) = default;
 };
 
-// What is added to x^2, of which `sq` is; the same over x^2 at its most, whatever the signs, for what is 1 of x^2.
-[[nodiscard]] double beyond_square(const LossBend& bend, double sq_lambda2) noexcept;
-[[nodiscard]] double most_over_square(const LossBend& bend, double sq_lambda2) noexcept;
-// Its slope, over that of the square.
-[[nodiscard]] double slope_over_square(const LossBend& bend, double sq_lambda2) noexcept;
+// What it is over chi at a square x^2, and how it goes on from there.
+struct Loss {
+    double value = 0.0;      // L = x^2 + b_0 x^4 + ...
+    double slope = 1.0;      // over that of x^2
+    double curvature = 1.0;  // half of the second derivative by x
+};
+
+[[nodiscard]] constexpr Loss loss_at(const LossBend& bend, double sq) noexcept {
+    const auto& [b0, b1, b2] = bend.term;
+    return {.value = sq * (1.0 + sq * (b0 + sq * (b1 + sq * b2))),
+            .slope = 1.0 + sq * (2.0 * b0 + sq * (3.0 * b1 + sq * 4.0 * b2)),
+            .curvature = 1.0 + sq * (6.0 * b0 + sq * (15.0 * b1 + sq * 28.0 * b2))};
+}
+// Its value with no term less than 0: as much as a part of it may be.
+[[nodiscard]] double most_loss(const LossBend& bend, double sq_lambda2) noexcept;
 
 struct CompensationConstants {
     Seconds tick{0.005};                         // T, 1e-9..1e9

@@ -37,6 +37,10 @@ struct EdgeShiftState {
     friend bool operator==(const EdgeShiftState&, const EdgeShiftState&) = default;
 };
 
+// P of n ticks from the shifted end of the last one on, as one: their counts, and those of A.
+[[nodiscard]] double even_angle(const CompensationConstants& gyro, EdgeShiftState& state, double counts, double area,
+                                std::int32_t end_ticks, double n_ticks = 1.0) noexcept;
+
 struct EdgeShiftOutput {
     double value_arcsec = 0.0;         // P: without shifts exactly scale * counts
     double known_excess_counts = 0.0;  // of the first half over the second by what they differ in length

@@ -24,7 +24,6 @@
 
 #include <zlg/core/compensation/gap_bridge_config.hpp>
 #include <zlg/core/compensation/gap_bridge_state.hpp>
-#include <zlg/core/compensation/gap_tick.hpp>
 #include <zlg/core/records.hpp>
 
 namespace zlg::core {

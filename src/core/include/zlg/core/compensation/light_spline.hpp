@@ -6,8 +6,8 @@
 //   d_h = k (c^T Q_h c - tr(Q_h cov c)),   Q_h = integral of B B^T over half h,   k = chi f0 K T/2           (2)
 //   cov(d_h, d_g) = 4 k^2 (Q_h c)^T cov c (Q_g c) + 2 k^2 tr(Q_h cov c Q_g cov c)                            (3)
 //
-// Where the loss has terms beyond the square, L (LossBend), the integral of L(dl) stands for c^T Q_h c, that of L'(dl)
-// B/2 for Q_h c and that of L''(dl) B B^T/2 for Q_h: to second order in the error of c.
+// By the loss L = dl^2 + ... (LossBend) the integral of L(dl) stands for c^T Q_h c, that of L'(dl) B/2 for Q_h c and
+// that of L''(dl) B B^T/2 for Q_h: to second order in the error of c.
 //
 // x are the samples, A the basis at their times, s^2 their variance: that of the residuals of the knots alone (g = 0)
 // where it is larger than the configured one. c^T P c is the integral of (1 + t)^3 times the square of the third
@@ -70,12 +70,12 @@ struct LightSums {
 // The samples of half h, wavelengths, equally spaced over it.
 void add(LightSums& sums, int h, std::span<const double> detuning_lambda) noexcept;
 
-// A half, as (2) and (3) need it: Q_h of the four terms from `first` on, Q_h c, and c^T Q_h c less what that makes.
+// A half, as (2) and (3) need it: Q_h of the four terms from `first` on, Q_h c and c^T Q_h c.
 struct LightHalf {
     int first;
     std::array<double, 10> product;  // lower triangle
     std::array<double, 4> slope;
-    double beyond;
+    double value;
 };
 
 // The fit (1), in units of k: false angles over k.
@@ -95,9 +95,6 @@ public:
 private:
     // A^T A + g P in its factor, L^-1 A^T x in `term_`; false where it has none.
     bool solve(const LightSums& sums, double smoothing, double* reciprocal) noexcept;
-
-    // Adds the terms of L beyond the square at a point of weight `weight` where four terms have this value.
-    void bend(const std::array<double, 4>& value, double weight, LightHalf& half) const noexcept;
 
     bool known_ = false;
     LossBend bend_{};

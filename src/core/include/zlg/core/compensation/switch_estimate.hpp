@@ -50,8 +50,6 @@ struct SwitchEstimate {
     friend bool operator==(const SwitchEstimate&, const SwitchEstimate&) = default;
 };
 
-inline constexpr int n_borders = 4;
-
 // Of the light, of the rows that are read.
 using LightHalves = std::array<LightHalf, 64>;
 
@@ -62,9 +60,8 @@ struct EstimateRoom {
     std::array<double, triangle_size(most_window_rows)> covariance{};  // V of all rows
     std::array<double, triangle_size(most_points_after)> errors{};     // E of the points after the gap
     union {
-        // Of V_m of the points, and its border.
-        std::array<double, triangle_size(most_window_points + n_borders)> factor{};
-        LightHalves halves;  // while E is made
+        std::array<double, triangle_size(most_window_points)> factor{};  // of V_m of the points
+        LightHalves halves;                                              // while E is made
     };
 };
 

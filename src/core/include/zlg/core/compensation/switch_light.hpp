@@ -55,9 +55,8 @@ void step(const CompensationConstants& gyro, const RelockProfileConfig& config, 
 // No perimeter is detuned by a thousand wavelengths: such a number is damage, and would overflow further on.
 inline constexpr double max_detuning_lambda = 1e3;
 
-// Of the variance of a sample's noise: by the slope of the curve that the detuning has come through, here or in the
-// control.
-[[nodiscard]] double noise_gain(const CompensationConstants& gyro, const TrueMoments& seen) noexcept;
+// Of a half as the curve sees it. NaN for the mean square stands for no motion.
+[[nodiscard]] TrueMoments moments_of(const CompensationConstants& gyro, const HalfRecord& half) noexcept;
 
 // Mean square of a half and its variance, from the record.
 struct RecordedSquare {

@@ -50,13 +50,6 @@ struct WalkedStretch {
 
 [[nodiscard]] WalkedStretch walked(const Walk& walk, const Stretch& stretch) noexcept;
 
-// Of two stretches, of which the second begins where the first ends or later.
-[[nodiscard]] constexpr double covariance(const WalkedStretch& first, const WalkedStretch& second) noexcept {
-    double sum = first.moment[0] * second.coefficient[0];
-    for (int m = 1; m < most_walk_terms; ++m) sum += first.moment[m] * second.coefficient[m];
-    return sum;
-}
-
 // The bank: motions that were not learnt, each a random walk of a derivative of the rate somewhere in the window.
 //
 // A member is a row, and stands for as many models as there are sizes. One that begins exactly at the end of the gap
