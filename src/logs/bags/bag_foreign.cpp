@@ -32,6 +32,7 @@ struct ImuRows {
     std::string path;
     ReadBag read_bag;
     ImuSensor sensor;
+    std::vector<std::size_t> columns = {0, 1};  // of `bag_columns`; further the rates that the sensor measures
 
     // Calls take(row) with the messages of the sensor, at most so many.
     template <class Take>
@@ -53,20 +54,23 @@ struct ImuRows {
     }
 
     [[nodiscard]] TextColumn column(std::int64_t number) const {
-        TextColumn empty{.number = number, .name = bag_columns.at(static_cast<std::size_t>(number - 1)), .values = {}};
+        TextColumn empty{.number = number, .name = names().at(static_cast<std::size_t>(number - 1)), .values = {}};
         empty.values.reserve(sensor.n_messages);
         return empty;
     }
 
+    [[nodiscard]] std::vector<std::string> names() const {
+        std::vector<std::string> all;
+        for (const std::size_t column : columns) all.emplace_back(bag_columns.at(column));
+        return all;
+    }
+
     [[nodiscard]] TextTable table(const std::vector<std::int64_t>& wanted, std::int64_t times) const {
-        TextTable all{.columns = {},
-                      .times = {},
-                      .names = {bag_columns.begin(), bag_columns.end()},
-                      .n_columns = std::ssize(bag_columns)};
+        TextTable all{.columns = {}, .times = {}, .names = names(), .n_columns = std::ssize(columns)};
         for (const std::int64_t number : wanted) all.columns.push_back(column(number));
         if (times > 0) all.times = column(times);
-        const auto put = [](TextColumn& to, const BagRow& row) {
-            to.values.push_back(row.at(static_cast<std::size_t>(to.number - 1)));
+        const auto put = [this](TextColumn& to, const BagRow& row) {
+            to.values.push_back(row.at(columns.at(static_cast<std::size_t>(to.number - 1))));
         };
         read(sensor.n_messages, [&](const BagRow& row) {
             for (TextColumn& to : all.columns) put(to, row);
@@ -87,7 +91,9 @@ ForeignTable bag_table_of(const std::string& path, const Mapping& mapping) {
     const std::string nature = foreign_nature(path);
     const ReadBag read_bag = nature.starts_with("a ROS bag") ? &read_rosbag : &read_mcap;
     const ImuSurvey survey = surveyed(path, read_bag);
-    const ImuRows rows{.path = path, .read_bag = read_bag, .sensor = survey.chosen(path, mapping.text("topic"))};
+    ImuRows rows{.path = path, .read_bag = read_bag, .sensor = survey.chosen(path, mapping.text("topic"))};
+    for (std::size_t k = 0; k < rows.sensor.has_rate.size(); ++k)
+        if (rows.sensor.has_rate[k]) rows.columns.push_back(2 + k);
     if (!mapping.has("time")) check_clocks(path, rows.sensor);
     ForeignTable table{.path = path,
                        .nature = fmt::format("{}, messages of '{}'", nature, rows.sensor.topic),
@@ -95,11 +101,11 @@ ForeignTable bag_table_of(const std::string& path, const Mapping& mapping) {
                        .notes = {},
                        .n_rows = static_cast<std::int64_t>(rows.sensor.n_messages),
                        .read = {}};
-    for (std::size_t c = 0; c < bag_columns.size(); ++c)
-        table.columns.push_back(
-            {.number = static_cast<std::int64_t>(c + 1), .name = bag_columns[c], .first = {}, .values = {}});
-    rows.read(max_looked_at / bag_columns.size(), [&table](const BagRow& row) {
-        for (std::size_t c = 0; c < row.size(); ++c) table.columns[c].values.push_back(row[c]);
+    for (const std::string& name : rows.names())
+        table.columns.push_back({.number = std::ssize(table.columns) + 1, .name = name, .first = {}, .values = {}});
+    rows.read(max_looked_at / bag_columns.size(), [&](const BagRow& row) {
+        for (std::size_t c = 0; c < table.columns.size(); ++c)
+            table.columns[c].values.push_back(row.at(rows.columns[c]));
     });
     for (ForeignColumn& column : table.columns) column.first = fmt::format("{}", column.values.front());
     if (!survey.end.empty()) table.notes.push_back("it " + survey.end);

@@ -45,6 +45,7 @@ void count(std::vector<ImuSensor>& sensors, const BagMessage& message, const Imu
     sensor.largest_delay_step_ns = std::max(sensor.largest_delay_step_ns, std::fabs(step));
     sensor.last_stamp_ns = imu.stamp_ns;
     sensor.last_received_ns = message.received_ns;
+    for (std::size_t k = 0; k < imu.rate_rad_s.size(); ++k) sensor.has_rate[k] |= !std::isnan(imu.rate_rad_s[k]);
     ++sensor.n_messages;
 }
 

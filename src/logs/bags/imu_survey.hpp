@@ -1,6 +1,7 @@
 #pragma once
 // Which IMUs speak in a bag, and how their clocks go.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct ImuSensor {
     std::uint64_t n_messages = 0;
     std::int64_t first_stamp_ns = 0, last_stamp_ns = 0;
     std::int64_t first_received_ns = 0, last_received_ns = 0;
+    std::array<bool, 3> has_rate{};      // about x, y, z, in some message
     double largest_delay_step_ns = 0.0;  // of how much later a message is received than it is stamped
 };
 
