@@ -20,8 +20,7 @@ namespace {
 class ImuBagSink final : public LogSink<AngleTable> {
 public:
     ImuBagSink(const std::string& path, double tick_s, bool force)
-        : file_{path, {.topic = "/imu", .type = "sensor_msgs/msg/Imu", .definition = bags::imu_definition}, force},
-          tick_s_{tick_s} {
+        : file_{path, "/imu", "sensor_msgs/msg/Imu", bags::imu_definition, force}, tick_s_{tick_s} {
         if (!(tick_s > 0.0)) throw FormatError(fmt::format("{}: tick_s is not known, and a rate needs it", path));
     }
 

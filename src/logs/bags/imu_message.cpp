@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "fields.hpp"
-#include "little_endian.hpp"
 
 namespace zlg::logs::bags {
 

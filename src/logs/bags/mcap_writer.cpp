@@ -2,7 +2,7 @@
 
 #include <zlib.h>
 
-#include "little_endian.hpp"
+#include "fields.hpp"
 #include "mcap_kinds.hpp"
 
 namespace zlg::logs::bags {
@@ -22,33 +22,30 @@ void put_record(std::string& out, McapKind kind, std::string_view content) {
     out += content;
 }
 
-std::string records_of(const McapChannel& channel) {
-    std::string records, content;
-    put(content, number_of_one);
-    put_text(content, channel.type);
-    put_text(content, "ros2msg");
-    put_text(content, channel.definition);
-    put_record(records, mcap_schema, content);
-    content.clear();
-    put(content, number_of_one);
-    put(content, number_of_one);
-    put_text(content, channel.topic);
-    put_text(content, "cdr");
-    put_text(content, "");  // nothing else is said of it
-    put_record(records, mcap_channel, content);
-    return records;
-}
-
 }  // namespace
 
-McapWriter::McapWriter(const std::string& path, const McapChannel& channel, bool force)
-    : file_{path, force}, channel_{records_of(channel)} {
+McapWriter::McapWriter(const std::string& path, std::string_view topic, std::string_view type,
+                       std::string_view definition, bool force)
+    : file_{path, force} {
     std::string head{mcap_magic}, content;
     put_text(content, "ros2");
     put_text(content, "zlg");
     put_record(head, mcap_header, content);
+    content.clear();
+    put(content, number_of_one);
+    put_text(content, type);
+    put_text(content, "ros2msg");
+    put_text(content, definition);
+    put_record(summary_, mcap_schema, content);
+    content.clear();
+    put(content, number_of_one);
+    put(content, number_of_one);
+    put_text(content, topic);
+    put_text(content, "cdr");
+    put_text(content, "");  // nothing else is said of it
+    put_record(summary_, mcap_channel, content);
     append(head);
-    append(channel_);
+    append(summary_);
 }
 
 void McapWriter::append(std::string_view bytes) {
@@ -58,82 +55,72 @@ void McapWriter::append(std::string_view bytes) {
 }
 
 void McapWriter::write(std::uint64_t time_ns, std::string_view message) {
-    entries_.push_back({time_ns, records_.size()});
+    if (n_messages_ == 0) first_ns_ = time_ns;
+    if (chunk_.empty()) chunk_from_ns_ = time_ns;
+    last_ns_ = time_ns;
+    put(chunk_index_, time_ns);
+    put(chunk_index_, std::uint64_t{chunk_.size()});
     std::string content;
     put(content, number_of_one);
     put(content, static_cast<std::uint32_t>(n_messages_++));
     put(content, time_ns);  // received
     put(content, time_ns);  // sent
     content += message;
-    put_record(records_, mcap_message, content);
-    if (records_.size() >= chunk_bytes) end_chunk();
+    put_record(chunk_, mcap_message, content);
+    if (chunk_.size() >= chunk_bytes) end_chunk();
 }
 
 void McapWriter::end_chunk() {
-    if (entries_.empty()) return;
-    Chunk chunk{.first_ns = entries_.front().time_ns,
-                .last_ns = entries_.back().time_ns,
-                .at = size_,
-                .size = 0,
-                .index_size = 0,
-                .n_bytes = records_.size()};
-    std::string content, record;
-    put(content, chunk.first_ns);
-    put(content, chunk.last_ns);
-    put(content, chunk.n_bytes);
-    put(content, crc_of(records_));
+    if (chunk_.empty()) return;
+    const std::uint64_t at = size_, n = chunk_.size();
+    std::string record, content;
+    put(content, chunk_from_ns_);
+    put(content, last_ns_);
+    put(content, n);
+    put(content, crc_of(chunk_));
     put_text(content, "");  // not compressed
-    put(content, chunk.n_bytes);
-    content += records_;
+    put(content, n);
+    content += chunk_;
     put_record(record, mcap_chunk, content);
     append(record);
-    chunk.size = record.size();
-    content.clear();
+    const std::uint64_t index_at = size_;
     record.clear();
+    content.clear();
     put(content, number_of_one);
-    put(content, static_cast<std::uint32_t>(entries_.size() * 2 * sizeof(std::uint64_t)));
-    for (const Entry& entry : entries_) {
-        put(content, entry.time_ns);
-        put(content, entry.at);
-    }
+    put_text(content, chunk_index_);
     put_record(record, mcap_message_index, content);
     append(record);
-    chunk.index_size = record.size();
-    chunks_.push_back(chunk);
-    records_.clear();
-    entries_.clear();
+    content.clear();
+    put(content, chunk_from_ns_);
+    put(content, last_ns_);
+    put(content, at);
+    put(content, index_at - at);
+    put(content, std::uint32_t{sizeof number_of_one + sizeof index_at});
+    put(content, number_of_one);
+    put(content, index_at);
+    put(content, size_ - index_at);
+    put_text(content, "");
+    put(content, n);
+    put(content, n);
+    put_record(summary_, mcap_chunk_index, content);
+    ++n_chunks_;
+    chunk_.clear();
+    chunk_index_.clear();
 }
 
-std::string McapWriter::summary() const {
-    std::string records = channel_, content;
-    for (const Chunk& chunk : chunks_) {
-        content.clear();
-        put(content, chunk.first_ns);
-        put(content, chunk.last_ns);
-        put(content, chunk.at);
-        put(content, chunk.size);
-        put(content, std::uint32_t{sizeof number_of_one + sizeof chunk.at});
-        put(content, number_of_one);
-        put(content, chunk.at + chunk.size);
-        put(content, chunk.index_size);
-        put_text(content, "");
-        put(content, chunk.n_bytes);
-        put(content, chunk.n_bytes);
-        put_record(records, mcap_chunk_index, content);
-    }
-    content.clear();
+std::string McapWriter::statistics() const {
+    std::string content;
     put(content, n_messages_);
     put(content, std::uint16_t{1});  // types
     put(content, std::uint32_t{1});  // channels
     put(content, std::uint64_t{0});  // attachments, metadata
-    put(content, static_cast<std::uint32_t>(chunks_.size()));
-    put(content, chunks_.empty() ? std::uint64_t{0} : chunks_.front().first_ns);
-    put(content, chunks_.empty() ? std::uint64_t{0} : chunks_.back().last_ns);
+    put(content, n_chunks_);
+    put(content, first_ns_);
+    put(content, last_ns_);
     put(content, std::uint32_t{sizeof number_of_one + sizeof n_messages_});
     put(content, number_of_one);
     put(content, n_messages_);
-    put_record(records, mcap_statistics, content);
-    return records;
+    return content;
 }
 
 void McapWriter::close() {
@@ -143,14 +130,14 @@ void McapWriter::close() {
     put_record(end, mcap_data_end, content);
     append(end);
     const std::uint64_t begin = size_;
-    std::string index = summary();
-    index += static_cast<char>(mcap_footer);
-    put(index, std::uint64_t{8 + 8 + 4});
-    put(index, begin);
-    put(index, std::uint64_t{0});  // no offsets of groups
-    put(index, crc_of(index));
-    index += mcap_magic;
-    append(index);
+    put_record(summary_, mcap_statistics, statistics());
+    summary_ += static_cast<char>(mcap_footer);
+    put(summary_, std::uint64_t{8 + 8 + 4});
+    put(summary_, begin);
+    put(summary_, std::uint64_t{0});  // no offsets of groups
+    put(summary_, crc_of(summary_));
+    summary_ += mcap_magic;
+    append(summary_);
     file_.close();
 }
 

@@ -4,23 +4,19 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <zlg/logs/table_file.hpp>
 
 namespace zlg::logs::bags {
 
-struct McapChannel {
-    std::string_view topic;
-    std::string_view type;
-    std::string_view definition;  // of the type and of those that it is made of, as .msg of ROS 2
-};
-
 // The file appears under its name at `close`, whole, or not at all.
 class McapWriter {
 public:
+    // `definition` of the type and of those that it is made of, as .msg of ROS 2.
+    //
     // errors  IoError, as TableFile, and all that follow.
-    McapWriter(const std::string& path, const McapChannel& channel, bool force);
+    McapWriter(const std::string& path, std::string_view topic, std::string_view type, std::string_view definition,
+               bool force);
 
     // A message as CDR. The times may not go back.
     void write(std::uint64_t time_ns, std::string_view message);
@@ -28,26 +24,18 @@ public:
     [[nodiscard]] const std::string& part_path() const { return file_.part_path(); }
 
 private:
-    struct Chunk {
-        std::uint64_t first_ns, last_ns;
-        std::uint64_t at, size, index_size, n_bytes;
-    };
-    struct Entry {
-        std::uint64_t time_ns, at;
-    };
-
     void append(std::string_view bytes);
     void end_chunk();
-    [[nodiscard]] std::string summary() const;
+    [[nodiscard]] std::string statistics() const;
 
     TableFile file_;
-    std::string channel_;  // the records of the type and the channel
     std::uint64_t size_ = 0;
     std::uint32_t crc_ = 0;
-    std::uint64_t n_messages_ = 0;
-    std::string records_;         // of the chunk that is being made
-    std::vector<Entry> entries_;  // of its messages
-    std::vector<Chunk> chunks_;
+    std::string summary_;  // the type, the channel, and where each chunk is
+    std::uint64_t n_messages_ = 0, first_ns_ = 0, last_ns_ = 0;
+    std::uint32_t n_chunks_ = 0;
+    std::string chunk_, chunk_index_;  // the one that is being made, and where its messages are
+    std::uint64_t chunk_from_ns_ = 0;
 };
 
 }  // namespace zlg::logs::bags

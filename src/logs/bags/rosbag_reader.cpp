@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "bag_file.hpp"
+#include "bag_reader.hpp"
 #include "fields.hpp"
-#include "unpacked.hpp"
 
 namespace zlg::logs::bags {
 
@@ -34,7 +33,7 @@ public:
         }
     }
 
-    // errors  Damaged: there is none.
+    // errors  Damaged: there is none; of a number also one of another length.
     [[nodiscard]] std::string text(const char* name) const {
         const auto found = values_.find(name);
         if (found == values_.end()) throw Damaged(fmt::format("has no field '{}'", name));
@@ -50,58 +49,29 @@ public:
     }
 
 private:
-    std::map<std::string, std::string, std::less<>> values_;
+    std::map<std::string, std::string> values_;
 };
 
-class RosbagReader {
+class RosbagReader : public BagReader {
 public:
-    RosbagReader(const std::string& path, const TakeMessage& take) : bag_{path, take} {}
-
-    std::string read() {
-        try {
-            if (bag_.in.take(rosbag_magic.size()) != rosbag_magic)
-                throw Damaged("is no ROS bag of version 2.0; `rosbag migrate` of ROS makes one");
-            while (!is_at_index()) next();
-        } catch (const CutOff&) {
-            // Nothing but what stands in its head says whether a bag is whole.
-            if (index_at_ != 0 && index_at_ <= bag_.bytes().size())
-                bag_.fail("goes on behind the end of the file, which is there; allowed are whole records");
-            return fmt::format("is cut off within what begins at byte {}; what stands before is taken", bag_.record_at);
-        } catch (const Damaged& damage) {
-            bag_.fail(damage.what());
-        }
-        if (index_at_ == 0) return "was not closed by its recorder: what stands in it is taken";
-        if (index_at_ > bag_.bytes().size()) return "is cut off; what stands before is taken";
-        if (!counts_.empty()) bag_.check_counts(counts_);
-        return read_index();
-    }
+    using BagReader::BagReader;
 
 private:
-    [[nodiscard]] bool is_at_index() {
-        const std::uint64_t at = bag_.in.at();
-        if (index_at_ == 0) return bag_.in.is_at_end();
-        if (at > index_at_)
-            throw Damaged(fmt::format("ends at byte {}; by the head of the bag its index begins at {}", at, index_at_));
-        return at == index_at_ || bag_.in.is_at_end();
+    void take_signature(ByteStream& in) override {
+        if (in.take(rosbag_magic.size()) != rosbag_magic)
+            throw Damaged("is no ROS bag of version 2.0; `rosbag migrate` of ROS makes one");
     }
-
-    std::string read_index() {
-        try {
-            while (!bag_.in.is_at_end()) next();
-        } catch (const CutOff&) {
-            return "its index is cut off; it is not needed";
-        } catch (const Damaged&) {
-            return "its index is damaged; it is not needed";
-        }
-        return {};
+    [[nodiscard]] bool has_all() override {
+        if (index_at_ != 0 && at() > index_at_)
+            throw Damaged(
+                fmt::format("ends at byte {}; by the head of the bag its index begins at {}", at(), index_at_));
+        return at() == index_at_ || is_at_end();
     }
+    [[nodiscard]] bool is_closed() override { return is_at_end(); }
+    [[nodiscard]] bool has_end() const override { return index_at_ != 0 && index_at_ <= bytes().size(); }
 
-    void next() {
-        bag_.record_at = bag_.in.at();
-        take_record(bag_.in, false);
-    }
-
-    void take_record(ByteStream& in, bool is_in_chunk) {
+    void take_record(ByteStream& in, bool is_in_chunk) override {
+        const bool is_in_index = !is_in_chunk && index_at_ != 0 && at() >= index_at_;
         const auto n_header = Fields{in.take(4)}.number<std::uint32_t>();
         const NamedFields header{in.take(n_header)};
         const auto kind = header.number<std::uint8_t>("op");
@@ -110,21 +80,20 @@ private:
         if (!is_known || (is_in_chunk && kind != rosbag_message && kind != rosbag_connection))
             throw Damaged(fmt::format("holds a record of kind {}; allowed are {}", kind,
                                       is_in_chunk ? "2 and 7 in a chunk" : "2..7"));
-        const std::uint64_t at = bag_.record_at;
-        if (index_at_ != 0 && at >= index_at_ && (kind == rosbag_message || kind == rosbag_chunk))
-            bag_.fail("holds messages behind the beginning of the index; allowed are connections");
+        if (is_in_index && (kind == rosbag_message || kind == rosbag_chunk))
+            fail("holds messages behind the beginning of the index; allowed are connections");
         switch (kind) {
             case rosbag_message:
-                return take_message(in, header, size);
+                return take_data(in, header, size);
             case rosbag_chunk:
-                return take_chunk(in, header, size);
+                return take_chunk(header.text("compression"), size, header.number<std::uint32_t>("size"), 0);
             case rosbag_connection:
                 return take_connection(header, in.take(size));
             case rosbag_header:
                 index_at_ = header.number<std::uint64_t>("index_pos");
                 break;
             case rosbag_index:
-                counts_[header.number<std::uint32_t>("conn")] += header.number<std::uint32_t>("count");
+                said_counts[header.number<std::uint32_t>("conn")] += header.number<std::uint32_t>("count");
                 break;
             default:
                 break;
@@ -132,31 +101,22 @@ private:
         in.skip(size);
     }
 
-    void take_message(ByteStream& in, const NamedFields& header, std::uint32_t size) {
+    void take_data(ByteStream& in, const NamedFields& header, std::uint32_t size) {
         const auto time = header.number<std::uint64_t>("time");  // seconds, and above them nanoseconds
         const auto seconds = static_cast<std::int64_t>(time & 0xffffffffU),
                    rest = static_cast<std::int64_t>(time >> 32U);
         if (rest >= 1'000'000'000) throw Damaged(fmt::format("has a time of {} ns beside seconds", rest));
-        bag_.message(in, header.number<std::uint32_t>("conn"), seconds * 1'000'000'000 + rest, size);
+        take_message(in, header.number<std::uint32_t>("conn"), seconds * 1'000'000'000 + rest, size);
     }
 
     void take_connection(const NamedFields& header, std::string_view data) {
-        bag_.add({.number = header.number<std::uint32_t>("conn"),
-                  .topic = header.text("topic"),
-                  .type = NamedFields{data}.text("type"),
-                  .encoding = "ros1"});
+        add({.number = header.number<std::uint32_t>("conn"),
+             .topic = header.text("topic"),
+             .type = NamedFields{data}.text("type"),
+             .encoding = "ros1"});
     }
 
-    void take_chunk(ByteStream& in, const NamedFields& header, std::uint32_t n_packed) {
-        ByteStream records = unpacked(in, header.text("compression"), n_packed, bag_.may_unpack);
-        while (!records.is_at_end()) take_record(records, true);
-        if (const auto due = header.number<std::uint32_t>("size"); records.at() != due)
-            throw Damaged(fmt::format("is a chunk of {} bytes; by its head expected are {}", records.at(), due));
-    }
-
-    BagFile bag_;
     std::uint64_t index_at_ = 0;  // 0: not closed
-    std::map<std::uint32_t, std::uint64_t> counts_;
 };
 
 }  // namespace

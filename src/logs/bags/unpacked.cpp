@@ -15,55 +15,46 @@ namespace {
 
 constexpr std::size_t block_size = std::size_t{1} << 16;
 
-// One step of an unpacker: takes of `in`, puts into `out` as much as it says. Returns 0 where a frame has ended.
-//
-// errors  Damaged.
-struct Unpacker {
-    virtual ~Unpacker() = default;
-    virtual std::size_t step(std::string_view& in, std::string& out, std::size_t& n_out) = 0;
-};
+// Takes of `in`, puts into `out` and says how much. Returns 0 where a frame has ended. errors  Damaged.
+using Step = std::function<std::size_t(std::string_view& in, std::string& out, std::size_t& n_out)>;
 
-struct Lz4 : Unpacker {
-    Lz4() {
-        LZ4F_dctx* made = nullptr;
-        if (LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)) != 0) throw std::bad_alloc{};
-        context.reset(made);
-    }
-    std::size_t step(std::string_view& in, std::string& out, std::size_t& n_out) override {
+Step lz4_step() {
+    LZ4F_dctx* made = nullptr;
+    if (LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)) != 0) throw std::bad_alloc{};
+    const std::shared_ptr<LZ4F_dctx> context{made, &LZ4F_freeDecompressionContext};
+    return [context](std::string_view& in, std::string& out, std::size_t& n_out) {
         std::size_t n_in = in.size();
         n_out = out.size();
         const std::size_t left = LZ4F_decompress(context.get(), out.data(), &n_out, in.data(), &n_in, nullptr);
         if (LZ4F_isError(left) != 0)
             throw Damaged(
-                fmt::format("its LZ4 data are damaged ({}); allowed are whole frames", LZ4F_getErrorName(left)));
+                fmt::format("has damaged data of LZ4 ({}); allowed are whole frames", LZ4F_getErrorName(left)));
         in.remove_prefix(n_in);
         return left;
-    }
-    std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> context{nullptr,
-                                                                                 &LZ4F_freeDecompressionContext};
-};
+    };
+}
 
-struct Zstd : Unpacker {
-    std::size_t step(std::string_view& in, std::string& out, std::size_t& n_out) override {
+Step zstd_step() {
+    const std::shared_ptr<ZSTD_DCtx> context{ZSTD_createDCtx(), &ZSTD_freeDCtx};
+    return [context](std::string_view& in, std::string& out, std::size_t& n_out) {
         ZSTD_inBuffer from{in.data(), in.size(), 0};
         ZSTD_outBuffer to{out.data(), out.size(), 0};
         const std::size_t left = ZSTD_decompressStream(context.get(), &to, &from);
         if (ZSTD_isError(left) != 0)
             throw Damaged(
-                fmt::format("its Zstandard data are damaged ({}); allowed are whole frames", ZSTD_getErrorName(left)));
+                fmt::format("has damaged data of Zstandard ({}); allowed are whole frames", ZSTD_getErrorName(left)));
         in.remove_prefix(from.pos);
         n_out = to.pos;
         return left;
-    }
-    std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context{ZSTD_createDCtx(), &ZSTD_freeDCtx};
-};
+    };
+}
 
 // Where a chunk is, packed, and as far as it is unpacked.
 struct Packed {
     ByteStream& file;
     std::uint64_t n_left;
     std::uint64_t& allowed;
-    std::unique_ptr<Unpacker> unpacker = {};
+    Step step = {};  // none: it is stored
     std::string_view in = {};
     std::string out = {};
     std::size_t n_out = 0;
@@ -77,13 +68,13 @@ struct Packed {
     }
 
     std::string_view next() {
-        if (!unpacker) return next_packed();
+        if (!step) return next_packed();
         n_out = 0;
         while (n_out == 0) {
             if (in.empty()) in = next_packed();
             const std::size_t before = in.size();
             if (before == 0 && frame_left == 0) return {};
-            frame_left = unpacker->step(in, out, n_out);
+            frame_left = step(in, out, n_out);
             if (n_out == 0 && before == 0)
                 throw Damaged("its packed data end within a frame; allowed are whole frames");
         }
@@ -99,13 +90,13 @@ struct Packed {
 ByteStream unpacked(ByteStream& file, std::string_view compression, std::uint64_t n_packed, std::uint64_t& allowed) {
     const auto packed = std::make_shared<Packed>(Packed{.file = file, .n_left = n_packed, .allowed = allowed});
     if (compression == "lz4")
-        packed->unpacker = std::make_unique<Lz4>();
+        packed->step = lz4_step();
     else if (compression == "zstd")
-        packed->unpacker = std::make_unique<Zstd>();
+        packed->step = zstd_step();
     else if (!compression.empty() && compression != "none")
         throw Damaged(fmt::format("is compressed by '{}'; allowed are none, lz4 and zstd",
                                   text::excerpt(std::string{compression}, 20, '?')));
-    if (packed->unpacker) packed->out.resize(block_size);
+    if (packed->step) packed->out.resize(block_size);
     return {[packed] { return packed->next(); }, ByteStream::End::of_chunk};
 }
 
