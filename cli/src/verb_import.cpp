@@ -158,7 +158,8 @@ void add_import(CLI::App& program) {
     CLI::App* verb = program.add_subcommand(
         "import",
         "a file of another program as a log; without --out it only says what it understood, and what is missing");
-    verb->add_option("FILE", options->file, "text, HDF5, MATLAB, NumPy, or rows of doubles")->required();
+    verb->add_option("FILE", options->file, "text, HDF5, MATLAB, NumPy, rows of doubles, MCAP, or a ROS 1 bag")
+        ->required();
     add_mapping_options(*verb, *options);
     verb->add_option("--write-mapping", options->write_mapping,
                      "write what was said and understood as TOML, for --mapping of process, analyze and calibrate");

@@ -162,7 +162,8 @@ void refuse_foreign(const std::string& path) {
     const char* allowed =
         nature.starts_with("HDF5") ? "a log, with /raw or /angles in it, or a text file" : "a text file";
     const bool imports = nature.starts_with("HDF5") || nature.starts_with("a MATLAB 5") ||
-                         nature.starts_with("a NumPy") || nature.starts_with("binary numbers of 8");
+                         nature.starts_with("a NumPy") || nature.starts_with("binary numbers of 8") ||
+                         nature.starts_with("a ROS bag") || nature.starts_with("an MCAP");
     throw FormatError(
         fmt::format("{}: is {}; allowed is {}{}", path, nature, allowed, imports ? "; zlg import reads this one" : ""));
 }

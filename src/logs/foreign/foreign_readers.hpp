@@ -15,6 +15,7 @@ namespace zlg::logs {
 [[nodiscard]] ForeignTable matlab5_table_of(const std::string& path, const Mapping& mapping);
 [[nodiscard]] ForeignTable numpy_table_of(const std::string& path);
 [[nodiscard]] ForeignTable doubles_table_of(const std::string& path);
+[[nodiscard]] ForeignTable bag_table_of(const std::string& path, const Mapping& mapping);
 
 // An array of a file that holds some.
 struct ForeignArray {

@@ -92,9 +92,11 @@ ForeignTable foreign_table(const std::string& path, const Mapping& mapping) {
     if (nature.starts_with("a MATLAB 5")) return matlab5_table_of(path, mapping);
     if (nature.starts_with("a NumPy array")) return numpy_table_of(path);
     if (nature.starts_with("binary numbers of 8 bytes")) return doubles_table_of(path);
+    if (nature.starts_with("a ROS bag") || nature.starts_with("an MCAP")) return bag_table_of(path, mapping);
     if (!nature.empty())
         throw FormatError(fmt::format(
-            "{}: is {}; allowed are text, HDF5, MATLAB, a NumPy array (.npy), or rows of doubles", path, nature));
+            "{}: is {}; allowed are text, HDF5, MATLAB, a NumPy array (.npy), MCAP, a ROS bag, or rows of doubles",
+            path, nature));
     return text_table_of(path, mapping);
 }
 

@@ -34,6 +34,7 @@ constexpr std::array<Key, 33> keys{{
     {"comment", Takes::word, "", "how lines of a text file begin that are skipped; # where it is not set"},
     {"skip_lines", Takes::whole, "a whole number from 0", "lines of a text file above the names of the columns"},
     {"table", Takes::word, "", "group or data set of HDF5, variable of MATLAB"},
+    {"topic", Takes::word, "", "the sensor of a bag that holds several"},
     {"time", Takes::column, "a column, or none", "the times of the rows"},
     {"time_unit", Takes::word, "s|ms|us|ns|min|h", "the unit of these times"},
     {"rate_hz", Takes::positive, "a number above 0", "rows a second, where no column of times says it"},

@@ -1,5 +1,6 @@
 #pragma once
-// A file of another program as a table of columns: text, HDF5, MATLAB, NumPy, doubles without a header.
+// A file of another program as a table of columns: text, HDF5, MATLAB, NumPy, doubles without a header,
+// an IMU of a bag.
 
 #include <cstdint>
 #include <functional>
