@@ -65,6 +65,10 @@ std::string fit_text(const AxisResult& axis) {
     }
     text += fmt::format("    chi-square {:.3g} of {} degrees of freedom, probability {:.2g}\n", axis.fit->chi2,
                         axis.fit->dof, axis.fit->probability);
+    if (axis.fit->from_tau_s > 1.5 / axis.rate_hz)
+        text +=
+            fmt::format("    averaging times below {:.4g} s left free: the sensor's filter or rounding rules them\n",
+                        axis.fit->from_tau_s);
     if (axis.fit->model_error > 0.0)
         text +=
             fmt::format("    each variance allowed an error of {:g} % beside chance\n", 100.0 * axis.fit->model_error);
