@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <vector>
 
 #include <Eigen/Dense>
 
@@ -21,14 +22,14 @@ constexpr std::size_t min_bins = 8;    // for three coefficients
 constexpr double bins_below = 32.0;    // of the spectrum below the cut, where the record is long enough
 constexpr std::size_t min_pieces = 4;  // lengths
 constexpr double known_share = 0.5;    // of a piece
-constexpr double most_beside = 0.05;   // of the white noise, by the other terms
 
-// The least frequency from which on the density, over a fifth of the frequency, is below a quarter of the level.
-std::size_t end_of(const Spectrum& s, std::size_t from, double level) {
+// The least frequency from which on the density, over a fifth of the frequency, is below a quarter of the level without
+// what is beside it.
+std::size_t end_of(const Spectrum& s, const std::vector<double>& beside, std::size_t from, double level) {
     for (std::size_t k = from; k < s.density.size();) {
         const std::size_t to = std::min(s.density.size(), std::max(k + 1, k + k / 5));
         double mean = 0.0;
-        for (std::size_t i = k; i < to; ++i) mean += s.density[i] / static_cast<double>(to - k);
+        for (std::size_t i = k; i < to; ++i) mean += (s.density[i] - beside[i]) / static_cast<double>(to - k);
         if (mean < quarter * level) return (k + to) / 2;
         k = to;
     }
@@ -59,27 +60,29 @@ Bandwidth find_bandwidth(std::span<const double> rates, double rate_hz, const No
     NoiseTerms others = terms;
     others.angle_random_walk_arcsec_sqrt_s = 0.0;
     const double white = terms.angle_random_walk_arcsec_sqrt_s * terms.angle_random_walk_arcsec_sqrt_s;
+    std::vector<double> beside;
+    for (const double f : s.frequency_hz) beside.push_back(2.0 * rate_spectrum(others, f, rate_hz));
     std::size_t from = mean_bins;
-    while (from < s.density.size() && rate_spectrum(others, s.frequency_hz[from], rate_hz) > most_beside * white)
-        ++from;
-    const std::size_t end = end_of(s, from, 2.0 * white);
+    while (from < beside.size() && beside[from] > 2.0 * white) ++from;
+    const std::size_t end = end_of(s, beside, from, 2.0 * white);
     if (end < from + min_bins) return {};
     const double quarter_hz = s.frequency_hz[end - 1];
     const auto n = static_cast<Eigen::Index>(end - from);
     Eigen::MatrixX3d laws(n, 3);
-    Eigen::VectorXd density(n);
+    const Eigen::Map<const Eigen::ArrayXd> density(s.density.data() + from, n), other(beside.data() + from, n);
     for (Eigen::Index k = 0; k < n; ++k) {
         const double share = s.frequency_hz[from + static_cast<std::size_t>(k)] / quarter_hz;
         laws.row(k) = law(share * share);
-        density[k] = s.density[from + static_cast<std::size_t>(k)];
     }
-    // Fisher scoring of a chi-square variable with the logarithm as link: every bin has the same weight.
-    const Eigen::Matrix3d inverse = (laws.transpose() * laws).inverse();
+    // Fisher scoring of a chi-square variable whose expectation is exp(laws b) and what is beside it.
+    Eigen::Matrix3d inverse;
     Eigen::Vector3d b{std::log(2.0 * white), 0.0, 0.0};
     constexpr int rounds = 40;
     for (int round = 0; round < rounds; ++round) {
-        const Eigen::VectorXd left = (density.array() * (-(laws * b)).array().exp() - 1.0).matrix();
-        b += (inverse * (laws.transpose() * left)).cwiseMax(-1.0).cwiseMin(1.0);
+        const Eigen::ArrayXd of_white = (laws * b).array().exp(), expected = of_white + other;
+        const Eigen::MatrixX3d by = (of_white / expected).matrix().asDiagonal() * laws;
+        inverse = (by.transpose() * by).inverse();
+        b += (inverse * (by.transpose() * (density / expected - 1.0).matrix())).cwiseMax(-1.0).cwiseMin(1.0);
     }
     const double u = half_at(b);
     if (!(u <= 1.0)) return {};

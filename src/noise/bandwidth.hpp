@@ -13,9 +13,9 @@ struct Bandwidth {
     double sigma_hz = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Whittle's likelihood of the Welch spectrum, whose logarithm is a + b ln(1 + 3u) + c u, u = (f/f_4)^2, up to the
-// frequency f_4 where a quarter of the density is left: b = -1, c = 0 is a low pass of first order, b = 0 nearly a
-// moving average. The place of the half does not depend on the level a.
+// Whittle's likelihood of the Welch spectrum: beside the other terms there is white noise the logarithm of whose
+// density is a + b ln(1 + 3u) + c u, u = (f/f_4)^2, up to the frequency f_4 where a quarter of it is left: b = -1, c =
+// 0 is a low pass of first order, b = 0 nearly a moving average. The place of the half does not depend on the level a.
 //
 // terms     with the angle random walk, and what hides it at low frequencies.
 // memory_s  about the time over which the sensor correlates its white noise.

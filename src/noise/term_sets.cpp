@@ -81,14 +81,14 @@ private:
     static double log_sum(const Eigen::VectorXd& value) { return 2.0 / 3.0 * value.array().log().sum(); }
     [[nodiscard]] Eigen::VectorXd markov(double time_s) const { return column(points_, markov_index, time_s).tail(n_); }
 
-    // Of sets that say nothing of the shortest times the Markov term stands for a filter, so that white noise is one or
-    // the other, and quantisation what rounding leaves, where there is no filter to take for it.
+    // Of sets that say nothing of the shortest times one coefficient is what is left of them: the time of a filter, as
+    // which the Markov term of white noise stands, or the quantisation that rounding leaves.
     [[nodiscard]] bool is_allowed(unsigned mask, bool with_markov) const {
-        const bool is_markov = (mask & markov_bit) != 0, is_white = (mask & white_bit) != 0;
+        const bool is_markov = (mask & markov_bit) != 0;
         if (is_markov && !with_markov) return false;
         if (skipped_ == 0) return true;
-        return is_markov != is_white && !(is_markov && (mask & quantised_bit) != 0) &&
-               std::popcount(mask) + (is_markov ? 1 : 0) < n_;
+        const bool is_one = is_markov ? (mask & (white_bit | quantised_bit)) == 0 : (mask & quantised_bit) != 0;
+        return is_one && std::popcount(mask) + (is_markov ? 1 : 0) < n_;
     }
 
     // Of those reached from every fourth octave beside all other terms, that of the best.
@@ -110,9 +110,9 @@ private:
 
     // A Markov term whose line s sqrt(2T/tau) is followed is white noise that a low pass of the time T cut off, unless
     // at shorter times the noise of single samples and angles, a white one of the rate among it, is followed too. From
-    // 8 T on its Hadamard deviation is within 11 % of that line.
+    // 4 T on its Hadamard deviation is within a quarter of that line.
     void take_filter(TermSet& c) const {
-        constexpr double line_from = 8.0;
+        constexpr double line_from = 4.0;
         Eigen::VectorXd single = Eigen::VectorXd::Zero(n_);
         for (const std::size_t kind : {quantised_index, white_index}) single += c.square[kind] * basic_[kind];
         if (!is_followed(c, c.square[markov_index] * markov(c.time_s), line_from * c.time_s) ||
