@@ -93,7 +93,9 @@ Bandwidth find_bandwidth(std::span<const double> rates, double rate_hz, const No
     const double slope = by.norm() > 0.0 ? b[1] * 3.0 / (1.0 + 3.0 * u) + b[2] : 0.0;
     const double hz = quarter_hz * std::sqrt(u);
     const double u_sigma = std::sqrt(tied * (by * inverse * by.transpose())(0)) / std::abs(slope);
-    return {.hz = hz, .sigma_hz = hz * 0.5 * u_sigma / u};
+    // What the law misses of nine low passes, at a million samples each: 2 % of the cut at the most.
+    constexpr double missed = 0.02;
+    return {.hz = hz, .sigma_hz = hz * std::hypot(0.5 * u_sigma / u, missed)};
 }
 
 }  // namespace zlg::noise

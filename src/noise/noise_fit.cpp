@@ -120,7 +120,7 @@ FittedTerm ramp_term(std::span<const double> rates, double rate_hz, const Smooth
 void take_bandwidth(std::span<const double> rates, double rate_hz, const SmoothFit& smooth, int threads,
                     NoiseFit& fit) {
     FittedTerm& white = fit.fitted[white_index];
-    if (!white.found || (smooth.skipped == 0 && smooth.filter_time_s == 0.0)) return;
+    if (!white.found || smooth.filter_time_s == 0.0) return;
     const Bandwidth b =
         find_bandwidth(rates, rate_hz, fit.terms, std::max(smooth.filter_time_s, 1.0 / rate_hz), threads);
     white.second = b.hz;

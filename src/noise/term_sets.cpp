@@ -13,6 +13,8 @@ constexpr double cost = 6.6;
 // Of a Markov term, whose time is free too: of 654 records without one 10 showed one (zlg_trials noise,
 // docs/noise.md).
 constexpr double markov_cost = 12.0;
+// Of one more averaging time left free for a filter that is found already: Akaike's.
+constexpr double filter_cost = 2.0;
 // Averaging times that are left when the shortest ones go: as many as there are smooth terms without a Markov time.
 constexpr Eigen::Index min_points = 4;
 
@@ -110,14 +112,17 @@ private:
 
     // A Markov term whose line s sqrt(2T/tau) is followed is white noise that a low pass of the time T cut off, unless
     // at shorter times the noise of single samples and angles, a white one of the rate among it, is followed too. From
-    // 4 T on its Hadamard deviation is within a quarter of that line.
+    // 4 T on its Hadamard deviation is within a quarter of that line. A white noise that is followed nowhere beside a
+    // Markov term is what that term of interval means misses of a filter of samples.
     void take_filter(TermSet& c) const {
         constexpr double line_from = 4.0;
         Eigen::VectorXd single = Eigen::VectorXd::Zero(n_);
         for (const std::size_t kind : {quantised_index, white_index}) single += c.square[kind] * basic_[kind];
-        if (!is_followed(c, c.square[markov_index] * markov(c.time_s), line_from * c.time_s) ||
-            (c.has(white_index) && is_followed(c, single, 0.0)))
+        if (c.has(white_index) && is_followed(c, single, 0.0)) return;
+        if (!is_followed(c, c.square[markov_index] * markov(c.time_s), line_from * c.time_s)) {
+            c.square[white_index] = c.variance[white_index] = 0.0;
             return;
+        }
         c.filtered = true;
         const double white = 2.0 * c.square[markov_index] * c.time_s;
         Eigen::VectorXd by = Eigen::VectorXd::Zero(c.fit.covariance.rows());
@@ -135,6 +140,19 @@ private:
     MeasuredVariances variances_;
     std::vector<Eigen::VectorXd> basic_;
 };
+
+// A filter ends gradually: what is left of it where its memory begins to end is less than a term costs, and more than
+// its standard error.
+void leave_filter(std::vector<TermSet>& all) {
+    const unsigned mask = all.front().mask;
+    const double price = all.front().price;
+    const auto first = std::ranges::min_element(all, {}, [mask](const TermSet& c) {
+        return c.mask == mask && c.filtered ? c.objective + filter_cost * static_cast<double>(c.skipped)
+                                            : std::numeric_limits<double>::infinity();
+    });
+    std::rotate(all.begin(), first, first + 1);
+    all.front().price = price;
+}
 
 }  // namespace
 
@@ -171,6 +189,7 @@ std::vector<TermSet> all_sets(const HadamardPoints& points, const Eigen::MatrixX
         least = std::ranges::min_element(all, {}, &TermSet::price)->price;
     }
     std::ranges::stable_sort(all, {}, &TermSet::price);
+    if (all.front().filtered) leave_filter(all);
     return all;
 }
 

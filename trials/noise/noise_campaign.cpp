@@ -82,16 +82,18 @@ RandomGyro filtered_gyro(const Draws& draws, double& n) {
     const auto beside = draws.of("kinds").below(5);
     const bool walks = beside == 1 || beside >= 3, flickers = beside == 2 || beside == 3;
     n = std::floor(draws.of("samples").within_log(walks && flickers ? 1e5 : 1e4, 1e6));
-    const double cut_hz = draws.of("bandwidth").within_log(std::max(0.005, 1000.0 / n), 0.15);
+    const double cut_hz =
+        draws.of("bandwidth")
+            .within_log(std::min(0.14, std::max(0.005, (walks && flickers ? 32.0 : 1.0) * 700.0 / n)), 0.15);
     g.filter = low_pass(static_cast<LowPassKind>(draws.of("filter").below(n_low_passes)), cut_hz);
     const double visible_s = g.filter.bandwidth_hz > 0.0 ? 64.0 * 0.16 / cut_hz : 64.0;
-    const double crossing_s = draws.of("crossing").within_log(std::max(visible_s, n / 1024.0), n / 64.0);
+    // Where the white noise meets what is beside it; a rate random walk beside bias instability meets its floor later.
+    const double later = walks && flickers ? draws.of("second crossing").within_log(8.0, 32.0) : 1.0;
+    const double crossing_s = draws.of("crossing").within_log(std::max(visible_s, n / 1024.0), n / 64.0 / later);
     for (const auto& [kind, has, size] :
          {std::tuple{NoiseKind::angle_random_walk, true, 1.0},
-          std::tuple{NoiseKind::rate_random_walk, walks, std::sqrt(3.0) / crossing_s},
-          // Its floor is the white noise at the crossing, of both terms where there are two.
-          std::tuple{NoiseKind::bias_instability, flickers,
-                     draws.of("bias instability").within(1.5, 2.5) / (0.664 * std::sqrt(crossing_s))},
+          std::tuple{NoiseKind::rate_random_walk, walks, std::sqrt(3.0 / later) / crossing_s},
+          std::tuple{NoiseKind::bias_instability, flickers, 1.0 / (0.664 * std::sqrt(crossing_s))},
           std::tuple{NoiseKind::ramp, beside == 4, 30.0 / (crossing_s * std::sqrt(n))}}) {
         g.has[static_cast<std::size_t>(kind)] = has;
         g.size(kind) = has ? size : 0.0;
