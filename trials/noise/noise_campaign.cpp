@@ -24,10 +24,10 @@ using noise::NoiseKind;
 using std::numbers::pi;
 
 constexpr std::size_t n_kinds = 7;
-constexpr std::size_t markov_time = 7, sine_frequency = 8, bandwidth = 9, n_scores = 10;
+constexpr std::size_t markov_time = 7, sine_frequency = 8, n_scores = 9;
 constexpr std::array<const char*, n_scores> score_names{
-    "quantisation",      "angle random walk",   "bias instability", "rate random walk",    "ramp",
-    "Markov, deviation", "sinusoid, amplitude", "Markov, time",     "sinusoid, frequency", "bandwidth"};
+    "quantisation",      "angle random walk",   "bias instability", "rate random walk",   "ramp",
+    "Markov, deviation", "sinusoid, amplitude", "Markov, time",     "sinusoid, frequency"};
 
 // One sample a second, angle random walk 1.
 struct RandomGyro {
@@ -196,7 +196,7 @@ void judge(const RandomGyro& g, const noise::NoiseFit& fit, double n, std::vecto
 void judge_bandwidth(const RandomGyro& g, const noise::NoiseFit& fit, NoiseCampaign& campaign) {
     const FittedTerm& white = fit.fitted[static_cast<std::size_t>(NoiseKind::angle_random_walk)];
     const bool has = g.filter.bandwidth_hz > 0.0, found = std::isfinite(white.second);
-    TermScore& score = campaign.terms[bandwidth];
+    TermScore& score = campaign.bandwidth;
     score.present += has ? 1 : 0;
     score.absent += has ? 0 : 1;
     score.found += has && found ? 1 : 0;
@@ -245,24 +245,30 @@ NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
         campaign.terms[second].present = of.present;
         campaign.terms[second].found = of.found;
     }
-    for (TermScore& score : campaign.terms)
+    const auto take_means = [](TermScore& score) {
         for (double* sum : {&score.mean, &score.mean_square, &score.within_1, &score.within_2})
             *sum /= std::max(1, score.found);
+    };
+    std::ranges::for_each(campaign.terms, take_means);
+    take_means(campaign.bandwidth);
     return campaign;
 }
 
 std::string campaign_text(const NoiseCampaign& campaign) {
     std::string text =
         "| term | there | found | not there | found falsely | mean error/sigma | mean square | within 1 | within 2 | "
-        "limits | that "
-        "hold |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
-    for (const TermScore& s : campaign.terms)
+        "limits | that hold |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+    const auto add = [&text](const TermScore& s) {
         text += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {:.3f} | {} | {} |\n", s.name,
                             s.present, s.found, s.absent, s.false_found, s.mean, s.mean_square, s.within_1, s.within_2,
                             s.limits, s.limits_hold);
-    if (campaign.terms[bandwidth].found > 0)
-        text += fmt::format("\nOf {} bandwidths {} are within 10 %.\n", campaign.terms[bandwidth].found,
+    };
+    std::ranges::for_each(campaign.terms, add);
+    if (campaign.bandwidth.present > 0) {
+        add(campaign.bandwidth);
+        text += fmt::format("\nOf {} bandwidths {} are within 10 %.\n", campaign.bandwidth.found,
                             campaign.bandwidths_within_10);
+    }
     return text + fmt::format("\nGoodness below 0.05 in {:.3f} of the fits.\n", campaign.low_probability);
 }
 

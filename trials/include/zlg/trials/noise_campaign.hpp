@@ -33,7 +33,8 @@ struct TermScore {
 
 struct NoiseCampaign {
     std::vector<TermScore>
-        terms;  // the seven kinds, then the time of the Markov term, the frequency of the sinusoid, the bandwidth
+        terms;  // the seven kinds, then the time of the Markov term and the frequency of the sinusoid
+    TermScore bandwidth{.name = "bandwidth"};
     int bandwidths_within_10 = 0;  // per cent of the truth
     double low_probability = 0.0;  // share of fits whose goodness was below 0.05
 };
