@@ -65,12 +65,11 @@ void take_absent(const std::vector<TermSet>& all, SmoothFit& result) {
             if (best.shows(kind) || c.mask != (best.mask | 1u << kind) || c.skipped != best.skipped) continue;
             result.square_freed[kind] = c.square[kind];
             result.square_sigma[kind] = std::sqrt(c.variance[kind]);
-            // What is seen of it, and the mean of what may remain below its error where one gyro in two has it: half of
-            // that of a half-normal variable, sqrt(2/pi) standard deviations.
+            // What is seen of it, and of what may remain below its error as much again, the mean of a half-normal
+            // variable, sqrt(2/pi) standard deviations, at the most.
             constexpr double half_normal_mean = 0.8;
-            result.mean_square[kind] =
-                std::max(result.mean_square[kind],
-                         result.square_freed[kind] + 0.5 * half_normal_mean * result.square_sigma[kind]);
+            const double seen = c.square[kind], hidden = half_normal_mean * result.square_sigma[kind];
+            result.mean_square[kind] = std::max(result.mean_square[kind], seen + std::min(seen, hidden));
         }
 }
 
