@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -33,6 +34,21 @@ std::string complaint(study::AxisRecord axis, const config::Analysis& c = {}) {
         return error.what();
     }
     return "";
+}
+
+TEST(Analyze, values_that_stand_several_samples_are_counted) {
+    study::AxisRecord axis = white(1000, 5.0, 2.0, 1);
+    EXPECT_EQ(study::analyze_axis({}, axis).stands, 1);
+    std::vector<double> held;
+    for (const double rate : axis.rates_arcsec_s) held.insert(held.end(), 5, rate);
+    held[2502] = missing;
+    axis.rates_arcsec_s = std::move(held);
+    EXPECT_EQ(study::analyze_axis({}, axis).stands, 5);
+    // Where one stands longer, as by chance, it does not count against it; one that stands otherwise does.
+    std::fill_n(axis.rates_arcsec_s.begin() + 1000, 10, 7.0);
+    EXPECT_EQ(study::analyze_axis({}, axis).stands, 5);
+    std::fill_n(axis.rates_arcsec_s.begin() + 1000, 8, 8.0);
+    EXPECT_EQ(study::analyze_axis({}, axis).stands, 1);
 }
 
 TEST(Analyze, white_noise_with_gaps) {
