@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <zlg/noise/noise_units.hpp>
 #include <zlg/study/term_text.hpp>
 
@@ -41,6 +43,8 @@ json term_json(const noise::FittedTerm& term) {
                   {"value", term.value * in.factor},
                   {"sigma", term.sigma * in.factor},
                   {"limit_95", term.limit * in.factor}};
+    if (term.kind == noise::NoiseKind::angle_random_walk && std::isfinite(term.second))
+        j["bandwidth_hz"] = term.second, j["bandwidth_sigma_hz"] = term.second_sigma;
     if (term.kind == noise::NoiseKind::markov) j["time_s"] = term.second, j["time_sigma_s"] = term.second_sigma;
     if (term.kind == noise::NoiseKind::sine)
         j["frequency_hz"] = term.second, j["frequency_sigma_hz"] = term.second_sigma;

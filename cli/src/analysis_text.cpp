@@ -28,6 +28,9 @@ std::string head_text(const config::Analysis& config, const AxisResult& axis) {
     const double span_s = static_cast<double>(axis.n_samples) / axis.rate_hz;
     std::string text = fmt::format("{}: {}, {:g} Hz\n  {} samples, {:.6g} s, {} known, {} gaps\n", printable(axis.name),
                                    axis.holds, axis.rate_hz, axis.n_samples, span_s, axis.n_known, axis.n_gaps);
+    if (axis.stands > 1)
+        text += fmt::format("  each value stands {} times: the sensor gives {:.6g} Hz\n", axis.stands,
+                            axis.rate_hz / static_cast<double>(axis.stands));
     const auto in_unit = [&config](double x) { return study::shown_rate(config.unit, x); };
     text += fmt::format("  mean rate   {} {}\n",
                         study::with_error(in_unit(axis.mean_arcsec_s), in_unit(axis.mean_sigma_arcsec_s)),
@@ -65,6 +68,10 @@ std::string fit_text(const AxisResult& axis) {
     }
     text += fmt::format("    chi-square {:.3g} of {} degrees of freedom, probability {:.2g}\n", axis.fit->chi2,
                         axis.fit->dof, axis.fit->probability);
+    if (axis.fit->from_tau_s > 1.5 / axis.rate_hz)
+        text +=
+            fmt::format("    averaging times below {:.4g} s left free: the sensor's filter or rounding rules them\n",
+                        axis.fit->from_tau_s);
     if (axis.fit->model_error > 0.0)
         text +=
             fmt::format("    each variance allowed an error of {:g} % beside chance\n", 100.0 * axis.fit->model_error);

@@ -88,6 +88,7 @@ std::string text_of(const NoiseTerms& t) {
     };
     add("quantisation_arcsec", t.quantisation_arcsec);
     add("angle_random_walk_arcsec_sqrt_s", t.angle_random_walk_arcsec_sqrt_s);
+    add("filter_time_s", t.filter_time_s);
     add("bias_instability_arcsec_s", t.bias_instability_arcsec_s);
     add("rate_random_walk_arcsec_s_sqrt_s", t.rate_random_walk_arcsec_s_sqrt_s);
     add("ramp_arcsec_s2", t.ramp_arcsec_s2);
@@ -110,6 +111,7 @@ void bind_terms(py::module_& m) {
         .def("__repr__", &text_of)
         .def_readwrite("quantisation_arcsec", &NoiseTerms::quantisation_arcsec)
         .def_readwrite("angle_random_walk_arcsec_sqrt_s", &NoiseTerms::angle_random_walk_arcsec_sqrt_s)
+        .def_readwrite("filter_time_s", &NoiseTerms::filter_time_s)
         .def_readwrite("bias_instability_arcsec_s", &NoiseTerms::bias_instability_arcsec_s)
         .def_readwrite("rate_random_walk_arcsec_s_sqrt_s", &NoiseTerms::rate_random_walk_arcsec_s_sqrt_s)
         .def_readwrite("ramp_arcsec_s2", &NoiseTerms::ramp_arcsec_s2)

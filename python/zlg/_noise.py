@@ -34,7 +34,7 @@ class FittedTerm(Shown):
     value: float
     #: one standard deviation
     sigma: float
-    #: of a Markov term the time, s; of a sinusoid the frequency, Hz
+    #: of a Markov term the time, s; of a sinusoid the frequency, of angle random walk the bandwidth, -3 dB, Hz
     second: float
     second_sigma: float
     #: where not found: 95 % of such gyros have less
@@ -60,6 +60,8 @@ class NoiseFit(Shown):
     model_error: float
     #: False: the terms do not describe the record
     describes: bool
+    #: shorter averaging times are left free: the sensor's filter or rounding rules them
+    from_tau_s: float
 
     def __getitem__(self, name: str) -> FittedTerm:
         """The term of a name, such as "angle random walk". Raises KeyError."""

@@ -73,6 +73,7 @@ class NoiseTerms:
     def __init__(self) -> None: ...
     quantisation_arcsec: float
     angle_random_walk_arcsec_sqrt_s: float
+    filter_time_s: float
     bias_instability_arcsec_s: float
     rate_random_walk_arcsec_s_sqrt_s: float
     ramp_arcsec_s2: float

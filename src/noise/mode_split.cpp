@@ -119,8 +119,16 @@ void take_warming(ModeSplit& split) {
     const auto residual = [&s](double log_tau) { return fit_segments(s, laws_of(s, std::exp(log_tau), 0.0)).residual; };
     const double tau_s =
         std::exp(numeric::scanned_minimum(residual, std::log(span_s / 30.0), std::log(span_s * 10.0), 40).at);
-    const double a = fit_segments(s, laws_of(s, tau_s, 0.0)).coefficient[2];
+    const SegmentFit grown = fit_segments(s, laws_of(s, tau_s, 0.0));
+    const double a = grown.coefficient[2];
     if (a == 0.0) return;
+    // To be taken out a growth need not bend: it is better than none where less is left for each degree of freedom.
+    const auto n = static_cast<double>(s.size());
+    if (grown.residual / (n - 4.0) < fit_segments(s, laws_of(s, 0.0, 0.0)).residual / (n - 2.0)) {
+        split.fitted_magnetic = grown.coefficient[1];
+        split.fitted_thermal = a;
+        split.fitted_time_s = tau_s;
+    }
     const SegmentFit fit = fit_segments(s, laws_of(s, tau_s, a));
     if (!(std::abs(a) > min_bend_sigmas * sigma(fit, 2)) || !(sigma(fit, 3) < max_time_error * tau_s)) return;
     const double dof = static_cast<double>(s.size()) - 4.0;
@@ -128,9 +136,6 @@ void take_warming(ModeSplit& split) {
     split.magnetic_arcsec_s = numeric::estimated(fit.coefficient[1], numeric::widened(sigma(fit, 1), dof));
     split.magnetic_thermal_arcsec_s = numeric::estimated(fit.coefficient[2], numeric::widened(sigma(fit, 2), dof));
     split.thermal_time_s = numeric::estimated(tau_s, numeric::widened(sigma(fit, 3), dof));
-    split.fitted_magnetic = fit.coefficient[1];
-    split.fitted_thermal = fit.coefficient[2];
-    split.fitted_time_s = tau_s;
 }
 
 std::vector<ModePoint> points_of(const std::vector<ModeSegment>& s) {

@@ -12,9 +12,11 @@
 #include <zlg/deviations/averaging.hpp>
 #include <zlg/deviations/deviation.hpp>
 
+#include "bandwidth.hpp"
 #include "noise_selection.hpp"
 #include "ramp.hpp"
 #include "sinusoids.hpp"
+#include "term_sets.hpp"
 
 namespace zlg::noise {
 namespace {
@@ -52,6 +54,9 @@ HadamardPoints hadamard_points(std::span<const double> rates, double rate_hz, co
                   deviations::octave_factors(std::max<std::int64_t>(1, n / min_lengths)),
                   {.least_known_ratio = options.least_known_ratio, .noise = 0, .threads = options.threads});
     HadamardPoints points{.tau_0_s = 1.0 / rate_hz, .n_intervals = n};
+    for (std::size_t k = 1; k < rates.size(); ++k)
+        if (std::isfinite(rates[k - 1]) && !std::isfinite(rates[k]))
+            points.gap_rate_hz += rate_hz / static_cast<double>(rates.size());
     std::vector<double> value, tau, scarcity;
     for (const deviations::DeviationPoint& p : curve.points) {
         if (!(p.deviation > 0.0)) continue;
@@ -84,7 +89,8 @@ FittedTerm smooth_term(const SmoothFit& fit, std::size_t index) {
     term.found = fit.found[index];
     const double sigma2 = fit.square_sigma[index];
     if (!term.found) {
-        if (index != markov_index) term.limit = std::sqrt(fit.square_freed[index] + one_sided_95 * sigma2);
+        // None where no set has it beside those found: it cannot be told from what a filter does.
+        if (sigma2 > 0.0) term.limit = std::sqrt(fit.square_freed[index] + one_sided_95 * sigma2);
         return term;
     }
     term.value = std::sqrt(fit.square[index]);
@@ -98,7 +104,7 @@ FittedTerm smooth_term(const SmoothFit& fit, std::size_t index) {
 }
 
 FittedTerm ramp_term(std::span<const double> rates, double rate_hz, const SmoothFit& fit) {
-    const Ramp ramp = find_ramp(rates, rate_hz, terms_of(fit.mean_square, fit.markov_time_s));
+    const Ramp ramp = find_ramp(rates, rate_hz, terms_of(fit.mean_square, fit.markov_time_s, fit.filter_time_s));
     FittedTerm term{.kind = NoiseKind::ramp};
     term.found = ramp.chance < ramp_chance;
     if (term.found) {
@@ -110,6 +116,17 @@ FittedTerm ramp_term(std::span<const double> rates, double rate_hz, const Smooth
     return term;
 }
 
+// Where the shortest averaging times are not white noise, what cuts it off.
+void take_bandwidth(std::span<const double> rates, double rate_hz, const SmoothFit& smooth, int threads,
+                    NoiseFit& fit) {
+    FittedTerm& white = fit.fitted[white_index];
+    if (!white.found || smooth.filter_time_s == 0.0) return;
+    const Bandwidth b =
+        find_bandwidth(rates, rate_hz, fit.terms, std::max(smooth.filter_time_s, 1.0 / rate_hz), threads);
+    white.second = b.hz;
+    white.second_sigma = b.sigma_hz;
+}
+
 void take_points(const HadamardPoints& points, const SmoothFit& smooth, NoiseFit& fit) {
     for (Eigen::Index i = 0; i < points.tau_s.size(); ++i)
         fit.points.push_back({.m = points.m[static_cast<std::size_t>(i)],
@@ -117,6 +134,7 @@ void take_points(const HadamardPoints& points, const SmoothFit& smooth, NoiseFit
                               .measured = points.value[i],
                               .fitted = smooth.fitted[i],
                               .degrees = smooth.degrees[i]});
+    fit.from_tau_s = points.tau_s[static_cast<Eigen::Index>(smooth.skipped)];
     fit.chi2 = smooth.chi2;
     fit.dof = smooth.dof;
 }
@@ -211,11 +229,12 @@ NoiseFit fit_noise_in_place(std::span<double> rates, double rate_hz, const Noise
     const auto sines = take_out_sinusoids(rates, rate_hz, options.most_sines, options.threads);
     const HadamardPoints points = hadamard_points(rates, rate_hz, options);
     const SmoothFit smooth = select(points, options.markov, fit);
-    fit.terms = terms_of(smooth.square, smooth.markov_time_s);
+    fit.terms = terms_of(smooth.square, smooth.markov_time_s, smooth.filter_time_s);
     for (std::size_t index = 0; index < markov_index; ++index) fit.fitted.push_back(smooth_term(smooth, index));
     fit.fitted.push_back(ramp_term(rates, rate_hz, smooth));
     if (fit.fitted.back().found) fit.terms.ramp_arcsec_s2 = fit.fitted.back().value;
     fit.fitted.push_back(smooth_term(smooth, markov_index));
+    take_bandwidth(rates, rate_hz, smooth, options.threads, fit);
     take_sinusoids(sines, fit);
     for (FittedTerm& term : fit.fitted) term.read_at_s = read_at(term.kind, term.second);
     take_points(points, smooth, fit);

@@ -104,15 +104,17 @@ private:
     const TimedColumn& timed_;
 };
 
-// Of the coefficients themselves, and of the logarithm of the time. There is next to no information on a coefficient
-// that has become too small to matter: 1e-12 keeps the matrix regular, here and in the search.
-Eigen::MatrixXd covariance(const Eigen::MatrixXd& information, const Eigen::VectorXd& coefficient) {
-    const Eigen::MatrixXd whole =
-        information + 1e-12 * Eigen::MatrixXd::Identity(information.rows(), information.cols());
-    Eigen::VectorXd by_log = Eigen::VectorXd::Ones(whole.rows());
-    by_log.head(coefficient.size()) = coefficient;
-    return by_log.asDiagonal() * whole.ldlt().solve(Eigen::MatrixXd::Identity(whole.rows(), whole.cols())) *
-           by_log.asDiagonal();
+// Of the coefficients themselves, and of the logarithm of the time. A coefficient that has gone to zero has the error
+// that its column allows, which its logarithm does not know. 1e-12 keeps the matrix regular, here and in the search.
+Eigen::MatrixXd covariance(const Likelihood& likelihood, const State& now, const Eigen::MatrixXd& share) {
+    Eigen::MatrixXd by = share;
+    by.leftCols(now.columns.cols()) = now.expected.cwiseInverse().asDiagonal() * now.columns;
+    const Eigen::MatrixXd information = likelihood.information(by);
+    const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
+    scaled.diagonal().array() += 1e-12;
+    return scale.asDiagonal() * scaled.ldlt().solve(Eigen::MatrixXd::Identity(by.cols(), by.cols())) *
+           scale.asDiagonal();
 }
 
 }  // namespace
@@ -150,7 +152,7 @@ TermFit fit_terms(const MeasuredVariances& v, const Eigen::MatrixXd& columns, co
     return {.coefficient = now.coefficient,
             .log_time = now.log_time,
             .expected = now.expected,
-            .covariance = covariance(likelihood.information(share), now.coefficient),
+            .covariance = covariance(likelihood, now, share),
             .objective = now.objective,
             .chi2 = now.whitened.squaredNorm()};
 }

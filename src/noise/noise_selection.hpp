@@ -20,6 +20,7 @@ struct HadamardPoints {
     Eigen::VectorXd scarcity;  // differences that a record without gaps would have, over those there were
     double tau_0_s = 1.0;
     std::int64_t n_intervals = 0;
+    double gap_rate_hz = 0.0;  // gaps a second: the errors of the angle at the two ends of each do not cancel
 };
 
 // Squares of Q, N, B, K, and of the deviation of the Markov term.
@@ -33,6 +34,8 @@ struct SmoothFit {
         square_sigma{};  // of those found; of the others one that they would have, markov excepted
     std::array<double, n_smooth> square_freed{};  // what each basic one would be, were it fitted beside those found
     std::array<double, n_smooth> mean_square{};   // over the sets of terms that fit, weighted by how well
+    double filter_time_s = 0.0;                   // of a low pass behind the angle random walk; 0: there is none
+    std::size_t skipped = 0;                      // octaves, from the first, of which the terms say nothing
     double markov_time_s = 0.0;
     double markov_time_sigma_s = 0.0;
     Eigen::VectorXd fitted;
@@ -41,7 +44,8 @@ struct SmoothFit {
     std::int64_t dof = 0;
 };
 
-[[nodiscard]] NoiseTerms terms_of(const std::array<double, n_smooth>& squares, double markov_time_s);
+[[nodiscard]] NoiseTerms terms_of(const std::array<double, n_smooth>& squares, double markov_time_s,
+                                  double filter_time_s = 0.0);
 
 // model_error  relative, of each variance: what terms of these kinds may miss, beside chance.
 [[nodiscard]] SmoothFit select_terms(const HadamardPoints& points, bool with_markov, double model_error);

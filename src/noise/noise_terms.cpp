@@ -25,7 +25,9 @@ double sine_differences(const SineTerm& sine, double tau_s, int order) {
 
 double angle_covariance(const NoiseTerms& terms, double t_s) {
     const double t = std::abs(t_s);
-    double sum = -0.5 * squared(terms.angle_random_walk_arcsec_sqrt_s) * t;
+    const double filter_s = terms.filter_time_s;
+    double sum = -0.5 * squared(terms.angle_random_walk_arcsec_sqrt_s) *
+                 (filter_s > 0.0 ? filter_s * relaxation(t / filter_s) : t);
     if (t > 0.0) sum += squared(terms.bias_instability_arcsec_s) / (2.0 * pi) * t * t * std::log(t);
     sum += squared(terms.rate_random_walk_arcsec_s_sqrt_s) * t * t * t / 12.0;
     for (const MarkovNoise& m : terms.markov)
@@ -50,8 +52,8 @@ double hadamard_variance(const NoiseTerms& terms, double tau_s) {
 
 double rate_spectrum(const NoiseTerms& terms, double frequency_hz, double rate_hz) {
     const double w = 2.0 * pi * frequency_hz;
-    double sum = squared(terms.angle_random_walk_arcsec_sqrt_s) + squared(terms.bias_instability_arcsec_s) / w +
-                 squared(terms.rate_random_walk_arcsec_s_sqrt_s / w) +
+    double sum = squared(terms.angle_random_walk_arcsec_sqrt_s) / (1.0 + squared(w * terms.filter_time_s)) +
+                 squared(terms.bias_instability_arcsec_s) / w + squared(terms.rate_random_walk_arcsec_s_sqrt_s / w) +
                  4.0 * rate_hz * squared(terms.quantisation_arcsec * std::sin(pi * frequency_hz / rate_hz));
     for (const MarkovNoise& m : terms.markov)
         sum += 2.0 * squared(m.deviation_arcsec_s) * m.time_s / (1.0 + squared(w * m.time_s));

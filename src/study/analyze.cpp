@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -42,6 +43,22 @@ void count_known(const AxisRecord& record, AxisResult& axis) {
         }
     }
     close(record.rates_arcsec_s.size());
+}
+
+// The greatest common divisor of the lengths of all stretches of one value: chance gives 1, a slower sensor than the
+// log the samples that each of its values stands. Few stretches tell nothing.
+std::int64_t stands_of(std::span<const double> rates) {
+    constexpr int min_stretches = 64;  // where one in two is odd by chance, none of so many is once in 2^64
+    std::int64_t common = 0;
+    int n = 0;
+    std::size_t from = rates.size();  // where the last stretch began, both its ends seen
+    for (std::size_t k = 1; k < rates.size(); ++k) {
+        if (rates[k] == rates[k - 1]) continue;
+        const bool is_whole = from < k && std::isfinite(rates[k]) && std::isfinite(rates[k - 1]);
+        if (is_whole) common = std::gcd(common, static_cast<std::int64_t>(k - from)), ++n;
+        from = std::isfinite(rates[k]) && std::isfinite(rates[k - 1]) ? k : rates.size();
+    }
+    return n < min_stretches ? 1 : common;
 }
 
 // Means over equal stretches; one of which half is missing is a gap.
@@ -186,6 +203,7 @@ AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
     axis.is_error = record.is_error;
     axis.n_samples = std::ssize(record.rates_arcsec_s);
     count_known(record, axis);
+    axis.stands = stands_of(record.rates_arcsec_s);
     if (task.with_page) axis.time_bins = time_bins_of(record);
     // The modes first: they are what the bridged rates are needed for.
     take_modes(task, record, axis);

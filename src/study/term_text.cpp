@@ -11,7 +11,7 @@ namespace zlg::study {
 ShownTerm shown_term(noise::NoiseKind kind) {
     // In the order of the enumerators.
     static const std::array<ShownTerm, 7> terms{{{"arcsec", 1.0, "", ""},
-                                                 {"deg/sqrt(h)", 1.0 / 60.0, "", ""},
+                                                 {"deg/sqrt(h)", 1.0 / 60.0, "bandwidth", "Hz"},
                                                  {"deg/h", 1.0, "", ""},
                                                  {"deg/h/sqrt(h)", 60.0, "", ""},
                                                  {"deg/h/h", 3600.0, "", ""},
@@ -43,7 +43,7 @@ std::string value_text(const noise::FittedTerm& term) {
                                          : "not found";
     std::string text =
         fmt::format("{} {}", with_error(term.value * shown.factor, term.sigma * shown.factor), shown.unit);
-    if (!shown.second.empty())
+    if (std::isfinite(term.second))
         text += fmt::format(", {} {} {}", shown.second, with_error(term.second, term.second_sigma), shown.second_unit);
     return text;
 }

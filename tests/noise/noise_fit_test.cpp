@@ -152,6 +152,62 @@ TEST(NoiseFit, a_correlation_longer_than_the_record_is_a_random_walk) {
     EXPECT_LT(walk.sigma, 0.004);
 }
 
+void expect_behind_a_low_pass(NoiseFit fit, double n, double bandwidth_hz) {
+    expect_found(fit, NoiseKind::angle_random_walk, n);
+    const FittedTerm& white = term(fit, NoiseKind::angle_random_walk);
+    EXPECT_LT(white.sigma, 0.05 * n);
+    EXPECT_NEAR(white.second, bandwidth_hz, 0.1 * bandwidth_hz);
+    EXPECT_NEAR(white.second, bandwidth_hz, 4.0 * white.second_sigma);
+    EXPECT_FALSE(term(fit, NoiseKind::markov).found);
+    EXPECT_TRUE(std::isnan(white.limit));
+    EXPECT_TRUE(fit.describes);
+}
+
+TEST(NoiseFit, white_noise_behind_a_low_pass_is_angle_random_walk_with_a_bandwidth) {
+    // First order: half of the power at 1/(2 pi T), N = s sqrt(2T).
+    SimulatedNoise first(1 << 17, 200.0, 10);
+    const double time_s = 0.04;
+    first.add_markov(0.3 / std::sqrt(2.0 * time_s), time_s);
+    expect_behind_a_low_pass(fit_noise_in_place(first.rates, 200.0), 0.3, 0.5 / (std::numbers::pi * time_s));
+    // sinc^2 is a half at 0.443/length.
+    SimulatedNoise averaged(1 << 17, 1000.0, 11);
+    averaged.add_averaged(0.05, 12);
+    expect_behind_a_low_pass(fit_noise_in_place(averaged.rates, 1000.0), 0.05, 443.0 / 12.0);
+    SimulatedNoise held(1 << 16, 1000.0, 12);
+    held.add_held(0.4, 5);
+    expect_behind_a_low_pass(fit_noise_in_place(held.rates, 1000.0), 0.4, 443.0 / 5.0);
+}
+
+TEST(NoiseFit, behind_a_low_pass_slow_terms_are_what_they_are) {
+    SimulatedNoise gyro(1 << 17, 100.0, 13);
+    gyro.add_averaged(1.0, 8);
+    gyro.add_random_walk(0.2);
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 100.0);
+    expect_behind_a_low_pass(fit, 1.0, 44.3 / 8.0);
+    expect_found(fit, NoiseKind::rate_random_walk, 0.2);
+    EXPECT_EQ(n_found(fit), 2);
+    EXPECT_GT(fit.from_tau_s, 0.04);
+}
+
+TEST(NoiseFit, rounding_of_a_counter_is_quantisation_at_long_times_and_no_walk_at_gaps) {
+    // Rounding down errs evenly over a count: by count/sqrt(12). Each gap leaves two such errors, which alone would be
+    // angle random walk of 2 Q^2 a gap: 0.17 here.
+    const double count = 3.263, n = 0.1;
+    SimulatedNoise gyro(1 << 17, 200.0, 14);
+    gyro.add_counted(9.1, count, 200 * 60);
+    gyro.add_white(n);
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 200.0);
+    EXPECT_TRUE(fit.describes);
+    const FittedTerm& q = term(fit, NoiseKind::quantisation);
+    ASSERT_TRUE(q.found);
+    EXPECT_NEAR(q.value, count / std::sqrt(12.0), 0.15 * q.value);
+    const FittedTerm& white = term(fit, NoiseKind::angle_random_walk);
+    EXPECT_LT(white.found ? white.value - 2.0 * white.sigma : 0.0, n);
+    EXPECT_GT(white.found ? white.value + 2.0 * white.sigma : white.limit, n);
+    EXPECT_GT(fit.from_tau_s, 0.3);
+    EXPECT_TRUE(std::isnan(white.second));
+}
+
 TEST(NoiseFit, refuses_what_tells_nothing) {
     const auto refuses = [](std::vector<double> rates, double rate_hz) {
         EXPECT_THROW((void)fit_noise_in_place(rates, rate_hz), deviations::SeriesError);

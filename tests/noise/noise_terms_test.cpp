@@ -71,4 +71,15 @@ TEST(NoiseTerms, quantised_angles_have_the_spectrum_of_their_differences) {
     EXPECT_NEAR(sum, 2.0 * 9.0 * 100.0, 1e-6 * sum);
 }
 
+TEST(NoiseTerms, white_noise_behind_a_low_pass_of_first_order_is_a_markov_term) {
+    const NoiseTerms filtered{.angle_random_walk_arcsec_sqrt_s = 0.3, .filter_time_s = 0.02};
+    const NoiseTerms markov{.markov = {{.deviation_arcsec_s = 0.3 / std::sqrt(0.04), .time_s = 0.02}}};
+    for (const double tau_s : {1e-3, 0.02, 1.0, 100.0}) {
+        EXPECT_NEAR(allan_variance(filtered, tau_s) / allan_variance(markov, tau_s), 1.0, 1e-12);
+        EXPECT_NEAR(rate_spectrum(filtered, 0.4 / tau_s, 1000.0) / rate_spectrum(markov, 0.4 / tau_s, 1000.0), 1.0,
+                    1e-12);
+    }
+    EXPECT_NEAR(allan_variance(filtered, 100.0), 0.09 / 100.0, 1e-6);
+}
+
 }  // namespace zlg::noise::noise_terms_test

@@ -1,6 +1,8 @@
 #pragma once
 // Rates with noise of known terms, made step by step.
 
+#include <numeric>
+
 #include "test.hpp"
 
 namespace zlg::noise {
@@ -11,6 +13,40 @@ public:
 
     void add_white(double n) {
         for (double& r : rates) r += n / std::sqrt(dt_) * normal_(engine_);
+    }
+    // Behind a moving average of so many samples.
+    void add_averaged(double n, std::size_t length) {
+        std::vector<double> white(rates.size() + length);
+        for (double& w : white) w = n / std::sqrt(dt_) / static_cast<double>(length) * normal_(engine_);
+        double sum = std::accumulate(white.begin(), white.begin() + static_cast<std::ptrdiff_t>(length), 0.0);
+        for (std::size_t k = 0; k < rates.size(); ++k) {
+            rates[k] += sum;
+            sum += white[k + length] - white[k];
+        }
+    }
+    // Of a slower sensor, each value of which stands for so many samples.
+    void add_held(double n, std::size_t length) {
+        double held = 0.0;
+        for (std::size_t k = 0; k < rates.size(); ++k) {
+            if (k % length == 0) held = n / std::sqrt(dt_ * static_cast<double>(length)) * normal_(engine_);
+            rates[k] += held;
+        }
+    }
+    // A counter that rounds down an angle which turns steadily, and after each gap begins anew.
+    void add_counted(double rate, double count, std::size_t gap_every) {
+        double angle = 0.0, before = 0.0;
+        for (std::size_t k = 0; k < rates.size(); ++k) {
+            if (k % gap_every == 0) {
+                rates[k] = std::numeric_limits<double>::quiet_NaN();
+                angle = std::uniform_real_distribution<double>(0.0, count)(engine_);
+                before = 0.0;
+                continue;
+            }
+            angle += rate * dt_;
+            const double now = count * std::floor(angle / count);
+            rates[k] += (now - before) / dt_;
+            before = now;
+        }
     }
     void add_quantisation(double q) {
         double before = normal_(engine_);

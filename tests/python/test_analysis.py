@@ -160,6 +160,21 @@ def test_white_noise_is_found_with_its_error():
         fit["walk"]
 
 
+def test_white_noise_behind_a_low_pass_is_found_with_its_bandwidth():
+    white = np.random.default_rng(38).normal(0.0, 5.0 * np.sqrt(200.0), 200_000)  # N = 5 arcsec/sqrt(s)
+    averaged = np.convolve(white, np.full(6, 1.0 / 6.0), "valid")
+    fit = analysis.fit_noise(averaged, rate_hz=200.0, data_type="rate", unit="arcsec/s")
+    n = fit["angle random walk"]
+    assert n.value == pytest.approx(5.0, abs=4.0 * n.sigma)
+    assert n.sigma < 0.1
+    # |sin(pi f L)/(pi f L)|^2 of L = 30 ms is a half at 0.443/L.
+    assert n.second == pytest.approx(0.443 / 0.03, rel=0.1)
+    assert fit.describes and fit.from_tau_s > 0.005
+    assert not fit["exponentially correlated"].found
+    spectrum = fit.terms.rate_spectrum(np.array([0.01]), 200.0)
+    assert spectrum[0] == pytest.approx(n.value**2, rel=0.01)
+
+
 def test_data_sheet_and_back():
     terms = analysis.terms_of_data_sheet(angle_random_walk_deg_sqrt_h=0.002, bias_instability_deg_h=0.0045)
     assert terms.angle_random_walk_arcsec_sqrt_s == pytest.approx(0.12)  # 0.002 * 3600/60

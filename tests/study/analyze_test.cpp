@@ -23,6 +23,21 @@ std::string complaint(study::AxisRecord axis, const config::Analysis& c = {}) {
         [&] { (void)study::analyze_axis({.config = c}, std::move(axis)); });
 }
 
+TEST(Analyze, values_that_stand_several_samples_are_counted) {
+    study::AxisRecord axis = white(1000, 5.0, 2.0, 1);
+    EXPECT_EQ(study::analyze_axis({}, axis).stands, 1);
+    std::vector<double> held;
+    for (const double rate : axis.rates_arcsec_s) held.insert(held.end(), 5, rate);
+    held[2502] = missing;
+    axis.rates_arcsec_s = std::move(held);
+    EXPECT_EQ(study::analyze_axis({}, axis).stands, 5);
+    // Where one stands longer, as by chance, it does not count against it; one that stands otherwise does.
+    std::fill_n(axis.rates_arcsec_s.begin() + 1000, 10, 7.0);
+    EXPECT_EQ(study::analyze_axis({}, axis).stands, 5);
+    std::fill_n(axis.rates_arcsec_s.begin() + 1000, 8, 8.0);
+    EXPECT_EQ(study::analyze_axis({}, axis).stands, 1);
+}
+
 TEST(Analyze, white_noise_with_gaps) {
     study::AxisRecord axis = white(20000, 5.0, 2.0, 1);
     for (std::size_t k = 5000; k < 5100; ++k) axis.rates_arcsec_s[k] = missing;

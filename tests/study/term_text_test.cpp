@@ -20,6 +20,13 @@ TEST(TermText, terms_stand_in_the_units_of_data_sheets) {
     // 0.12 arcsec/sqrt(s) = 0.002 deg/sqrt(h)
     EXPECT_EQ(study::value_text({.kind = NoiseKind::angle_random_walk, .found = true, .value = 0.12, .sigma = 0.006}),
               "0.00200 +- 0.00010 deg/sqrt(h)");
+    EXPECT_EQ(study::value_text({.kind = NoiseKind::angle_random_walk,
+                                 .found = true,
+                                 .value = 0.12,
+                                 .sigma = 0.006,
+                                 .second = 20.0,
+                                 .second_sigma = 0.5}),
+              "0.00200 +- 0.00010 deg/sqrt(h), bandwidth 20.00 +- 0.50 Hz");
     EXPECT_EQ(study::value_text({.kind = NoiseKind::ramp, .limit = 1e-4}), "below 0.36 deg/h/h");
     EXPECT_EQ(study::value_text({.kind = NoiseKind::sine}), "not found");
     EXPECT_EQ(study::value_text({.kind = NoiseKind::markov,

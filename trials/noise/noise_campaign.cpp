@@ -4,12 +4,15 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <zlg/chance/draw.hpp>
 #include <zlg/core/common/maths.hpp>
+
+#include "low_passes.hpp"
 
 namespace zlg::trials {
 namespace {
@@ -32,6 +35,7 @@ struct RandomGyro {
     std::array<double, n_kinds> value{};
     double time_s = 1.0;
     double frequency_hz = 0.1;
+    LowPass filter;
 
     [[nodiscard]] bool of(NoiseKind kind) const { return has[static_cast<std::size_t>(kind)]; }
     double& size(NoiseKind kind) { return value[static_cast<std::size_t>(kind)]; }
@@ -72,6 +76,31 @@ RandomGyro random_gyro(const Draws& draws, double n) {
     return g;
 }
 
+// Its terms are seen beyond 64 times the memory of its filter, about 0.16/bandwidth.
+RandomGyro filtered_gyro(const Draws& draws, double& n) {
+    RandomGyro g;
+    const auto beside = draws.of("kinds").below(5);
+    const bool walks = beside == 1 || beside >= 3, flickers = beside == 2 || beside == 3;
+    n = std::floor(draws.of("samples").within_log(walks && flickers ? 1e5 : 1e4, 1e6));
+    const double cut_hz =
+        draws.of("bandwidth")
+            .within_log(std::min(0.14, std::max(0.005, (walks && flickers ? 32.0 : 1.0) * 700.0 / n)), 0.15);
+    g.filter = low_pass(static_cast<LowPassKind>(draws.of("filter").below(n_low_passes)), cut_hz);
+    const double visible_s = g.filter.bandwidth_hz > 0.0 ? 64.0 * 0.16 / cut_hz : 64.0;
+    // Where the white noise meets what is beside it; a rate random walk beside bias instability meets its floor later.
+    const double later = walks && flickers ? draws.of("second crossing").within_log(8.0, 32.0) : 1.0;
+    const double crossing_s = draws.of("crossing").within_log(std::max(visible_s, n / 1024.0), n / 64.0 / later);
+    for (const auto& [kind, has, size] :
+         {std::tuple{NoiseKind::angle_random_walk, true, 1.0},
+          std::tuple{NoiseKind::rate_random_walk, walks, std::sqrt(3.0 / later) / crossing_s},
+          std::tuple{NoiseKind::bias_instability, flickers, 1.0 / (0.664 * std::sqrt(crossing_s))},
+          std::tuple{NoiseKind::ramp, beside == 4, 30.0 / (crossing_s * std::sqrt(n))}}) {
+        g.has[static_cast<std::size_t>(kind)] = has;
+        g.size(kind) = has ? size : 0.0;
+    }
+    return g;
+}
+
 // Means over the samples of an exponentially correlated rate: value and integral together.
 void add_markov(std::vector<double>& rates, double deviation, double time_s, Draw draw) {
     const double a = core::maths::exp(-1.0 / time_s), loss = -core::maths::expm1(-1.0 / time_s);
@@ -93,6 +122,7 @@ std::vector<double> simulate(const RandomGyro& g, std::size_t n, const Draws& dr
     std::vector<double> rates(n, 0.0);
     Draw white = draws.of("angle random walk");
     for (double& r : rates) r += white.normal();
+    pass(g.filter, rates);
     if (g.of(NoiseKind::quantisation)) {
         Draw draw = draws.of("quantisation");
         double before = draw.normal();
@@ -155,6 +185,39 @@ void judge(const RandomGyro& g, const noise::NoiseFit& fit, double n, std::vecto
         scores[kind].absent += g.has[kind] ? 0 : 1;
         scores[kind].false_found += false_found[kind] ? 1 : 0;
     }
+    for (const FittedTerm& t : fit.fitted) {
+        const auto kind = static_cast<std::size_t>(t.kind);
+        if (t.found || !std::isfinite(t.limit)) continue;
+        ++scores[kind].limits;
+        scores[kind].limits_hold += !g.has[kind] || t.limit >= std::abs(g.value[kind]) ? 1 : 0;
+    }
+}
+
+void judge_bandwidth(const RandomGyro& g, const noise::NoiseFit& fit, NoiseCampaign& campaign) {
+    const FittedTerm& white = fit.fitted[static_cast<std::size_t>(NoiseKind::angle_random_walk)];
+    const bool has = g.filter.bandwidth_hz > 0.0, found = std::isfinite(white.second);
+    TermScore& score = campaign.bandwidth;
+    score.present += has ? 1 : 0;
+    score.absent += has ? 0 : 1;
+    score.found += has && found ? 1 : 0;
+    score.false_found += !has && found ? 1 : 0;
+    if (!has || !found) return;
+    add_error(score, (white.second - g.filter.bandwidth_hz) / white.second_sigma);
+    campaign.bandwidths_within_10 += std::abs(white.second / g.filter.bandwidth_hz - 1.0) < 0.1 ? 1 : 0;
+}
+
+// The fit of the rates in another unit and at another rate, brought back.
+noise::NoiseFit fit_in(double unit, double rate_hz, std::vector<double>& rates) {
+    for (double& r : rates) r *= unit;
+    noise::NoiseFit fit = noise::fit_noise_in_place(rates, rate_hz);
+    // Of a coefficient the power of the rate in its unit, by kind.
+    constexpr std::array<double, n_kinds> powers{-1.0, -0.5, 0.0, 0.5, 1.0, 0.0, 0.0};
+    for (FittedTerm& t : fit.fitted) {
+        const double scale = unit * std::pow(rate_hz, powers.at(static_cast<std::size_t>(t.kind)));
+        for (double* value : {&t.value, &t.sigma, &t.limit}) *value /= scale;
+        for (double* value : {&t.second, &t.second_sigma}) *value /= rate_hz;
+    }
+    return fit;
 }
 
 }  // namespace
@@ -162,13 +225,17 @@ void judge(const RandomGyro& g, const noise::NoiseFit& fit, double n, std::vecto
 NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
     NoiseCampaign campaign;
     for (const char* name : score_names) campaign.terms.push_back({.name = name});
-    const auto n = static_cast<double>(task.n_samples);
     for (int k = 0; k < task.n_gyros; ++k) {
         const auto trial = static_cast<std::uint64_t>(k);
-        const RandomGyro gyro = random_gyro({task.seed, chance::Cause::noise_gyro, trial}, n);
+        auto n = static_cast<double>(task.n_samples);
+        const Draws draws{task.seed, chance::Cause::noise_gyro, trial};
+        const RandomGyro gyro = task.filters ? filtered_gyro(draws, n) : random_gyro(draws, n);
         std::vector<double> rates =
-            simulate(gyro, static_cast<std::size_t>(task.n_samples), {task.seed, chance::Cause::noise_record, trial});
-        const auto fit = noise::fit_noise_in_place(rates, 1.0);
+            simulate(gyro, static_cast<std::size_t>(n), {task.seed, chance::Cause::noise_record, trial});
+        const auto fit =
+            task.filters ? fit_in(draws.of("unit").within_log(1e-4, 1e4), draws.of("rate").within_log(0.01, 1e4), rates)
+                         : noise::fit_noise_in_place(rates, 1.0);
+        judge_bandwidth(gyro, fit, campaign);
         judge(gyro, fit, n, campaign.terms);
         campaign.low_probability += fit.probability < 0.05 ? 1.0 / task.n_gyros : 0.0;
     }
@@ -178,19 +245,30 @@ NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
         campaign.terms[second].present = of.present;
         campaign.terms[second].found = of.found;
     }
-    for (TermScore& score : campaign.terms)
+    const auto take_means = [](TermScore& score) {
         for (double* sum : {&score.mean, &score.mean_square, &score.within_1, &score.within_2})
             *sum /= std::max(1, score.found);
+    };
+    std::ranges::for_each(campaign.terms, take_means);
+    take_means(campaign.bandwidth);
     return campaign;
 }
 
 std::string campaign_text(const NoiseCampaign& campaign) {
     std::string text =
-        "| term | there | found | not there | found falsely | mean error/sigma | mean square | within 1 | within 2 |\n"
-        "|---|---|---|---|---|---|---|---|---|\n";
-    for (const TermScore& s : campaign.terms)
-        text += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {:.3f} |\n", s.name, s.present,
-                            s.found, s.absent, s.false_found, s.mean, s.mean_square, s.within_1, s.within_2);
+        "| term | there | found | not there | found falsely | mean error/sigma | mean square | within 1 | within 2 | "
+        "limits | that hold |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+    const auto add = [&text](const TermScore& s) {
+        text += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {:.3f} | {} | {} |\n", s.name,
+                            s.present, s.found, s.absent, s.false_found, s.mean, s.mean_square, s.within_1, s.within_2,
+                            s.limits, s.limits_hold);
+    };
+    std::ranges::for_each(campaign.terms, add);
+    if (campaign.bandwidth.present > 0) {
+        add(campaign.bandwidth);
+        text += fmt::format("\nOf {} bandwidths {} are within 10 %.\n", campaign.bandwidth.found,
+                            campaign.bandwidths_within_10);
+    }
     return text + fmt::format("\nGoodness below 0.05 in {:.3f} of the fits.\n", campaign.low_probability);
 }
 

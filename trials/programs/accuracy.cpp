@@ -125,6 +125,7 @@ Work noise_terms(CLI::App& app) {
     const auto task = std::make_shared<NoiseCampaignTask>();
     app.add_option("GYROS", task->n_gyros)->check(CLI::PositiveNumber);
     app.add_option("SAMPLES", task->n_samples)->check(CLI::Range(4096.0, 1e9));
+    app.add_flag("--filters", task->filters, "gyros with low passes, of any length, rate and unit");
     app.add_option("--seed", task->seed);
     return [task] {
         fmt::print("{}", campaign_text(run_noise_campaign(*task)));

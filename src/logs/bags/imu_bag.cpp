@@ -10,8 +10,8 @@
 
 #include "imu_message.hpp"
 #include "log_io.hpp"
-#include "logged_fingerprint.hpp"
 #include "mcap_writer.hpp"
+#include "settings_lines.hpp"
 
 namespace zlg::logs {
 

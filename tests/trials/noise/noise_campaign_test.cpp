@@ -26,6 +26,19 @@ TEST(NoiseCampaign, errors_are_as_large_as_claimed) {
     EXPECT_GT(found, present * 7 / 10);
 }
 
+// The campaign itself is `zlg_trials noise 400 --filters`.
+TEST(NoiseCampaign, angle_random_walk_is_found_behind_low_passes_with_the_bandwidth) {
+    const auto campaign = trials::run_noise_campaign({.n_gyros = 30, .seed = 4, .filters = true});
+    const auto& white = campaign.terms[1];
+    EXPECT_GE(white.found, 29);
+    // 30 squares of standard normal errors: 1 +- 0.26.
+    EXPECT_NEAR(white.mean_square, 1.0, 0.9);
+    EXPECT_GE(campaign.bandwidth.present, 20);
+    EXPECT_GE(campaign.bandwidth.found, campaign.bandwidth.present - 3);
+    EXPECT_EQ(campaign.bandwidth.false_found, 0);
+    EXPECT_GE(campaign.bandwidths_within_10, campaign.bandwidth.found - 2);
+}
+
 // Of 150 gyros half have a ramp; beside a random walk or flicker of the rate it was often taken for that noise, 62 of
 // 78 were found.
 TEST(NoiseCampaign, ramps_are_found_beside_slow_noise) {

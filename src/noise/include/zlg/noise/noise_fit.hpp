@@ -9,10 +9,14 @@
 // does not use its points, for neighbouring averaging times of one record share most of their noise, and a ramp could
 // not be distinguished from a rate random walk in them.
 //
+// What a sensor does between samples, its low pass, held values or the rounding of its counter, ends at some averaging
+// time, and beyond the memory of any low pass white noise differs from that without it by one coefficient only, that of
+// a low pass of first order. So the shortest averaging times are left free where the terms do not hold there.
+//
 // A term is reported where the data refuse to do without it: of all sets of terms the one with the least
-// -2 log likelihood + 6.6 for each coefficient is reported (a chance of 0.5 % each for one that is absent; a Markov
-// term has two). Its standard error includes that of the other terms and, for few degrees of freedom, its own
-// uncertainty.
+// -2 log likelihood + 6.6 for each coefficient, and each averaging time left free, is reported (a chance of 0.5 % each
+// for one that is absent; a Markov term has two). Its standard error includes that of the other terms and, for few
+// degrees of freedom, its own uncertainty.
 
 #include <cstdint>
 #include <limits>
@@ -44,9 +48,11 @@ struct FittedTerm {
 
     NoiseKind kind = NoiseKind::quantisation;
     bool found = false;
-    double value = none;   // in the unit of the kind; of markov and sine the deviation and the amplitude. Ramp: signed
-    double sigma = none;   // one standard deviation
-    double second = none;  // of markov the time, s; of sine the frequency, Hz
+    double value = none;  // in the unit of the kind; of markov and sine the deviation and the amplitude. Ramp: signed
+    double sigma = none;  // one standard deviation
+    // Of markov the time, s; of sine the frequency, Hz; of angle random walk behind a low pass its bandwidth, Hz, -3
+    // dB.
+    double second = none;
     double second_sigma = none;
     double limit = none;      // where not found: 95 % of such gyros have less; none for markov and sine
     double read_at_s = none;  // the tau at which the Allan deviation of the term alone is read: see docs/noise.md
@@ -65,6 +71,7 @@ struct NoiseFit {
     NoiseTerms terms;                // those found
     std::vector<FittedTerm> fitted;  // every kind once, found or not; sinusoids one each
     std::vector<FitPoint> points;
+    double from_tau_s = 0.0;  // the shorter averaging times are left free: the sensor's filter or rounding rules them
     // Sum of squares of what is left, in units of its covariance, and how probable that much or more is.
     double chi2 = 0.0;
     std::int64_t dof = 0;

@@ -30,6 +30,9 @@ struct SineTerm {
 struct NoiseTerms {
     double quantisation_arcsec = 0.0;  // standard deviation of the error of one angle
     double angle_random_walk_arcsec_sqrt_s = 0.0;
+    // Of the low pass of first order behind which it is seen: N^2/(1 + (2 pi f T)^2), the Markov term of N = s
+    // sqrt(2T). At averaging times far longer than the memory of any filter that filter is one of first order.
+    double filter_time_s = 0.0;
     double bias_instability_arcsec_s = 0.0;
     double rate_random_walk_arcsec_s_sqrt_s = 0.0;
     double ramp_arcsec_s2 = 0.0;

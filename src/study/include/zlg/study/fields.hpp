@@ -43,7 +43,7 @@ BOOST_HANA_ADAPT_STRUCT(zlg::study::Readout, what, tau_s, deviation_arcsec_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::study::EarthLine, group, n_axes, norm_arcsec_s, sigma_arcsec_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::deviations::DeviationPoint, tau_s, m, deviation, low, high, terms, noise, as_computed);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::FittedTerm, found, value, sigma, limit, read_at_s);
-BOOST_HANA_ADAPT_STRUCT(zlg::noise::NoiseFit, chi2, dof, probability, model_error, describes);
+BOOST_HANA_ADAPT_STRUCT(zlg::noise::NoiseFit, chi2, dof, probability, model_error, describes, from_tau_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::FitPoint, tau_s, measured, fitted, degrees);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::DataSheet, quantisation_arcsec, angle_random_walk_deg_sqrt_h,
                         bias_instability_deg_h, rate_random_walk_deg_h_sqrt_h, ramp_deg_h_h);

@@ -12,7 +12,7 @@ namespace zlg::study {
 struct ShownTerm {
     std::string unit;     // "deg/sqrt(h)", ...
     double factor = 1.0;  // from the unit of the kind to this one
-    std::string second;   // what the second number is: "time", "frequency"; empty: there is none
+    std::string second;   // what the second number is: "time", "frequency", "bandwidth"; empty: there is none
     std::string second_unit;
 };
 
