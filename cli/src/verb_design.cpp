@@ -69,73 +69,6 @@ json result_json(const study::DesignResult& result) {
     return j;
 }
 
-std::string interval_text(const study::DesignResult& result) {
-    std::string text = fmt::format("best interval between switches\n{:>10}  {:<12}{:>12}{:>14}{:>12}{:>12}\n", "run, s",
-                                   "method", "interval, s", "drift, \"/s", "+ at 0.7 L", "+ at 1.3 L");
-    for (const auto& l : result.intervals) {
-        const std::string longer =
-            l.sensitivity.longer_arcsec_s ? fmt::format("{:.4f}", *l.sensitivity.longer_arcsec_s) : "-";
-        text += fmt::format("{:>10.6g}  {:<12}{:>12.1f}{:>14.4f}{:>12.4f}{:>12}", l.run_s, design::name(l.method),
-                            l.optimum.interval_s, l.optimum.drift_arcsec_s, l.sensitivity.shorter_arcsec_s, longer);
-        if (l.optimum.status != design::OptimumStatus::inside)
-            text += fmt::format("  {}", design::sentence(l.optimum.status));
-        text += '\n';
-    }
-    return text;
-}
-
-std::string best_text(const study::DesignResult& result) {
-    std::string text = fmt::format(
-        "\na switch leaves {:.3g} arcsec rms, {}; what that makes best, as switching.interval_s = \"optimal\"\n"
-        "{:>10}{:>14}{:>14}\n",
-        result.switch_error_arcsec, result.switch_error_source, "run, s", "interval, s", "drift, \"/s");
-    for (const auto& r : result.runs)
-        text += fmt::format("{:>10.6g}{:>14.1f}{:>14.4f}\n", r.run_s, r.best.interval_s, r.best.drift_arcsec_s);
-    return text;
-}
-
-std::string substitution_text(const study::DesignResult& result) {
-    std::string text = fmt::format(
-        "\nerror of the gap's angle after eq (15), arcsec\n{:>8}{:>6}{:>7}{:>10}{:>10}{:>12}{:>11}{:>10}{:>11}\n", "Hz",
-        "gap", "order", "worst", "rms", "noise gain", "rounding", "re-lock", "together");
-    for (const auto& l : result.substitution) {
-        const std::string hz = std::isfinite(l.frequency_hz) ? fmt::format("{:.4g}", l.frequency_hz) : "all";
-        text += fmt::format("{:>8}{:>6}{:>7}{:>10.3f}{:>10.3f}{:>12.3f}{:>11.3f}{:>10.3f}{:>11.3f}\n", hz, l.gap_ticks,
-                            l.order, l.worst_arcsec, l.rms_arcsec, l.noise_gain, l.counter_arcsec, l.relock_arcsec,
-                            l.total_arcsec);
-    }
-    return text;
-}
-
-std::string run_length_text(const study::DesignResult& result) {
-    std::string text = fmt::format(
-        "\nthe corrected budget at its best interval, and another policy, arcsec/s\n{:>10}{:>10}{:>10}{:>10}"
-        "{:>10}   half first segment\n",
-        "run, s", "non-mag.", "quasi", "sawtooth", "switches");
-    for (const auto& r : result.runs)
-        text += fmt::format("{:>10.6g}{:>10.4f}{:>10.4f}{:>10.4f}{:>10.4f}   {:.4f} at {:.4g} s\n", r.run_s,
-                            r.terms.nonmagnetic_arcsec_s, r.terms.quasi_nonmagnetic_arcsec_s, r.terms.sawtooth_arcsec_s,
-                            r.terms.switch_errors_arcsec_s, r.half_first_segment.drift_arcsec_s,
-                            r.half_first_segment.interval_s);
-    return text;
-}
-
-std::string loop_text(const study::LoopLine& l) {
-    std::string text =
-        fmt::format("\nperimeter loop, {}\n  phase margin {:.1f} deg, gain margin {:.3g}\n",
-                    l.margins.stable ? "stable" : "UNSTABLE", l.margins.phase_margin_deg, l.margins.gain_margin);
-    text += fmt::format("  T/tau {:.2f}; stable below {:.2f} for {}\n", l.tick_over_tau, l.stability_limit,
-                        l.stability_note);
-    const std::string time = std::isfinite(l.relock_s)
-                                 ? fmt::format("{:.1f} ms (linear {:.1f} ms), false angle {:.1f} arcsec",
-                                               1e3 * l.relock_s, 1e3 * l.relock_linear_s, l.false_angle_arcsec)
-                                 : l.relock_note;
-    text += fmt::format("  re-lock from {:.4g} to 0.01 wavelength: {}; (T/4) G(0+) {:.1f} arcsec\n",
-                        l.relock_from_lambda, time, l.false_angle_law_arcsec);
-    return text + fmt::format("  miss: root sum square {:.4f}, worst {:.4f} wavelength\n",
-                              l.miss.root_sum_square_lambda, l.miss.worst_lambda);
-}
-
 void design_gyro(const DesignOptions& options) {
     config::Config config = load_config(options);
     if (options.run_lengths) {
@@ -150,13 +83,12 @@ void design_gyro(const DesignOptions& options) {
     config.switching.interval_optimal = false;
     config = resolve(config).config;
     const study::DesignResult result = study::design_gyro(config);
+    const report::Page page = study::design_page(config, result);
     if (!options.out.empty()) {
         require_suffix(options.out, ".html");
-        write_file(options.out, report::html(study::design_page(config, result)), options.force);
+        write_file(options.out, report::html(page), options.force);
     }
-    print(options.json ? pretty(result_json(result))
-                       : interval_text(result) + best_text(result) + run_length_text(result) +
-                             substitution_text(result) + loop_text(result.loop));
+    print(options.json ? pretty(result_json(result)) : report::text(page));
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter&
                    const ProcessOptions& options, const Interruptible& interruptible) {
     Summary summary;
     core::HalfRecord record;
-    Progress progress{angles.part_path()};
+    Progress progress;
     const bool has_light = raw.header().light_samples > 0;
     const auto write = [&](const core::AngleRow& row) {
         summary.take(row);

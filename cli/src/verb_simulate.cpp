@@ -67,7 +67,7 @@ private:
 
 void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::RawWriter& raw, LineRecording& line,
             rig::SwitchCount& count, const Interruptible& interruptible) {
-    Progress progress{raw.part_path()};
+    Progress progress;
     const std::int64_t progress_stride = std::clamp<std::int64_t>(ticks / 200, 1, 100'000);
     for (std::int64_t half = 0; half < 2 * ticks; ++half) {
         interruptible.check();

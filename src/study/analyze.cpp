@@ -154,8 +154,7 @@ void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     try {
         if (axis.modes) take_curve_left(task, record, axis);
         const double mean = mean_of(rates);
-        axis.fit = noise::fit_noise_in_place(
-            rates, record.rate_hz, {.least_known_ratio = task.config.least_known_ratio, .threads = task.threads});
+        axis.fit = noise::fit_noise_in_place(rates, record.rate_hz, {.threads = task.threads});
         if (!axis.fit->terms.sines.empty()) axis.mean_arcsec_s += mean_of(rates) - mean;
         if (task.with_page && (axis.modes || !axis.fit->terms.sines.empty()))
             axis.spectrum_left = noise::welch_spectrum(rates, record.rate_hz, piece_of(rates.size()));

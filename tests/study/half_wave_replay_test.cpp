@@ -54,7 +54,7 @@ std::vector<study::SwitchLine> filled(const config::Config& c, const Live& from)
 
 TEST(HalfWaveReplay, gives_what_the_control_has_learnt_to_the_bit) {
     for (const config::Config& c :
-         {gyro(), gyro({"piezo.half_wave_error=0.05", "piezo.hysteresis=0.1", "piezo.adc_noise_v=0.05"}),
+         {gyro(), gyro({"piezo.half_wave_error=0.05", "piezo.hysteresis=0.1"}),
           gyro({"switching.gap_ticks=8", "switching.gap_min_ticks=1", "perimeter.loop=\"digital\""})}) {
         const Live run = live(c);
         const auto lines = filled(c, run);
