@@ -136,7 +136,7 @@ void add_error(TermScore& score, double error) {
 }
 
 // The sine of the gyro is the line within two resolution widths of it; any other line is false.
-void judge(const RandomGyro& g, const noise::NoiseFit& fit, double n, std::vector<TermScore>& scores) {
+void add_errors(const RandomGyro& g, const noise::NoiseFit& fit, double n, std::vector<TermScore>& scores) {
     std::array<bool, n_kinds> found{}, false_found{};
     for (const FittedTerm& t : fit.fitted) {
         if (!t.found) continue;
@@ -169,7 +169,7 @@ NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
         std::vector<double> rates =
             simulate(gyro, static_cast<std::size_t>(task.n_samples), {task.seed, chance::Cause::noise_record, trial});
         const auto fit = noise::fit_noise_in_place(rates, 1.0);
-        judge(gyro, fit, n, campaign.terms);
+        add_errors(gyro, fit, n, campaign.terms);
         campaign.low_probability += fit.probability < 0.05 ? 1.0 / task.n_gyros : 0.0;
     }
     for (const auto& [second, first] :
