@@ -15,12 +15,12 @@
 #include <zlg/logs/matlab_copy.hpp>
 #include <zlg/logs/raw_log.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "interrupt.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/interrupt.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

@@ -6,12 +6,12 @@
 
 #include <zlg/study/design_study.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "fields_json.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/fields_json.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

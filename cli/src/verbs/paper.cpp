@@ -12,12 +12,12 @@
 #include <zlg/paper/paper.hpp>
 #include <zlg/report/export.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "own_folder.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/own_folder.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

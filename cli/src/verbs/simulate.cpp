@@ -17,13 +17,13 @@
 #include <zlg/rig/wire_stream.hpp>
 #include <zlg/rig/wiring.hpp>
 
-#include "as_json.hpp"
-#include "cost.hpp"
-#include "failure.hpp"
-#include "interrupt.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/cost.hpp"
+#include "src/failure.hpp"
+#include "src/interrupt.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

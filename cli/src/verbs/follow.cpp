@@ -9,12 +9,12 @@
 #include <zlg/logs/follower.hpp>
 #include <zlg/study/fields.hpp>
 
-#include "angle_recording.hpp"
-#include "as_json.hpp"
-#include "interrupt.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/angle_recording.hpp"
+#include "src/as_json.hpp"
+#include "src/interrupt.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

@@ -6,13 +6,13 @@
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/study/calibrate.hpp>
 
-#include "as_json.hpp"
-#include "calibration_text.hpp"
-#include "failure.hpp"
-#include "mapping_input.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/calibration_text.hpp"
+#include "src/failure.hpp"
+#include "src/mapping_input.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

@@ -14,13 +14,13 @@
 #include <zlg/sweep/sweep.hpp>
 #include <zlg/sweep/sweep_page.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "interrupt.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "sweep_text.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/interrupt.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/sweep_text.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

@@ -12,14 +12,14 @@
 #include <zlg/report/page.hpp>
 #include <zlg/study/analyze.hpp>
 
-#include "analysis_input.hpp"
-#include "analysis_json.hpp"
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "mapping_input.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/analysis_input.hpp"
+#include "src/analysis_json.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/mapping_input.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

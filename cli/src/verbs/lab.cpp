@@ -5,13 +5,13 @@
 
 #include <zlg/logs/follower.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
 #include "lab_follow.hpp"
 #include "lab_page.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

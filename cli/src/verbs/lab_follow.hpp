@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "options.hpp"
+#include "src/options.hpp"
 
 namespace zlg::cli {
 

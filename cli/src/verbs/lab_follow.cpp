@@ -19,11 +19,11 @@
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 
-#include "angle_recording.hpp"
-#include "failure.hpp"
-#include "interrupt.hpp"
 #include "lab_page.hpp"
-#include "output.hpp"
+#include "src/angle_recording.hpp"
+#include "src/failure.hpp"
+#include "src/interrupt.hpp"
+#include "src/output.hpp"
 
 namespace zlg::cli {
 namespace {

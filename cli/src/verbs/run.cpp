@@ -17,17 +17,17 @@
 #include <zlg/study/what_happened.hpp>
 #include <zlg/twin/motion.hpp>
 
-#include "as_json.hpp"
-#include "cost.hpp"
-#include "failure.hpp"
-#include "fields_json.hpp"
-#include "interrupt.hpp"
 #include "lab_page.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "own_folder.hpp"
-#include "run_files.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/cost.hpp"
+#include "src/failure.hpp"
+#include "src/fields_json.hpp"
+#include "src/interrupt.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/own_folder.hpp"
+#include "src/run_files.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {
