@@ -24,15 +24,9 @@ report::Table meaning_table(const RunResult& result) {
     return table;
 }
 
-std::vector<std::string> result_text(const RunResult& result) {
+std::vector<std::string> result_text(const config::Config& config, const RunResult& result) {
     std::vector<std::string> text = result.warnings;
-    if (result.tally.failed + result.tally.withheld > 0) text.push_back(rig::sentence(result.tally));
-    if (const std::int64_t n = result.variants.back().unrepaired; n > 0)
-        text.push_back(
-            fmt::format("{} of {} switches have a gap that no bridge repairs, for it is too long or has no good ticks "
-                        "beside it: what was "
-                        "turned in it is missing from the angle, and their errors are not in the table.",
-                        n, result.switches.size()));
+    for (std::string& sentence : what_happened(config, result)) text.push_back(sentence + ".");
     return text;
 }
 
@@ -150,7 +144,7 @@ report::Page run_page(const config::Config& config, const RunResult& result) {
                       .verdict = run_verdict(config, result),
                       .lead = lead(config, result)};
     page.sections.push_back({.heading = "Result",
-                             .paragraphs = result_text(result),
+                             .paragraphs = result_text(config, result),
                              .tables = {variant_table(config, result), meaning_table(result)},
                              .figures = {sawtooth_figure(config, result)}});
     auto& figures = page.sections.back().figures;
