@@ -1,20 +1,172 @@
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <zlg/live/page_server.hpp>
+#include <zlg/live/record_book.hpp>
+#include <zlg/live/record_source.hpp>
+#include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/error.hpp>
 #include <zlg/logs/follower.hpp>
+#include <zlg/logs/log_kind.hpp>
+#include <zlg/logs/raw_log.hpp>
+#include <zlg/rig/asked_compensation.hpp>
 
-#include "lab_follow.hpp"
 #include "lab_page.hpp"
+#include "src/angle_recording.hpp"
 #include "src/as_json.hpp"
 #include "src/failure.hpp"
+#include "src/interrupt.hpp"
 #include "src/options.hpp"
 #include "src/output.hpp"
 #include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {
+
+struct LabFollowOptions : Options {
+    std::string source;  // what zlg follow takes, or an HDF5 log that grows
+    int baud = 0;        // of a serial device
+    std::uint16_t port = 0;
+};
+
+using live::RecordSource;
+
+std::unique_ptr<RecordSource> raw_source(const LabFollowOptions& options) {
+    logs::RawReader raw{options.source};
+    const recorded::LogCompensation asked = log_compensation(options, raw.header(), options.source);
+    return live::log_source(std::move(raw), options.source, asked.compensation, asked.config.gyro.tick_s,
+                            rig::angle_settings(asked.config));
+}
+
+std::unique_ptr<RecordSource> angle_source(const LabFollowOptions& options) {
+    if (!options.out.empty())
+        throw UsageError{fmt::format("--out: {} is an angle log already; `zlg convert` copies one", options.source)};
+    auto source = live::log_source(logs::AngleReader{options.source});
+    if (!source->tick_s())
+        throw logs::FormatError{fmt::format(
+            "{}: has no setting tick_s, so the times of its ticks are not known; allowed is a log that says it",
+            options.source)};
+    return source;
+}
+
+void refuse_settings(const LabFollowOptions& options, const char* kind) {
+    if (options.sets.empty() && options.config_path.empty()) return;
+    throw UsageError{
+        fmt::format("--set and --config are for the compensation of a raw log; {} is {}, which has its angles already",
+                    options.source, kind)};
+}
+
+// A log is known by its content; what is none, is a line, or was recorded from one.
+std::unique_ptr<RecordSource> opened(const LabFollowOptions& options) {
+    std::error_code no_such_file;  // then the source is a device or an address
+    if (std::filesystem::is_regular_file(options.source, no_such_file)) {
+        switch (logs::recognise(options.source)) {
+            case logs::LogKind::raw_hdf5:
+                return raw_source(options);
+            case logs::LogKind::angle_hdf5:
+                refuse_settings(options, "an angle log");
+                return angle_source(options);
+            case logs::LogKind::raw_csv:
+            case logs::LogKind::angle_csv:
+                throw UsageError{fmt::format(
+                    "--follow: {} is a CSV log; allowed is HDF5, which can be read while it grows", options.source)};
+            case logs::LogKind::unknown:
+                break;
+        }
+    }
+    refuse_settings(options, "a gyro's line");
+    return live::line_source(options.source, options.baud);
+}
+
+// Records go to the log first, then to the pages.
+class Receiver {
+public:
+    Receiver(const LabFollowOptions& options, RecordSource& source, live::RecordBook& book)
+        : source_{source}, book_{book}, settings_{source.settings()} {
+        if (!options.out.empty()) recording_.emplace(options.source, options.out, options.force);
+    }
+
+    // Until the source ends or a signal comes; the log is then complete.
+    void receive(const Interruptible& interruptible) {
+        try {
+            while (take(interruptible)) flush_now_and_then();
+            if (recording_) recording_->close();
+        } catch (...) {
+            rethrow_with({recording_ ? recording_->part_path() : std::string{}});
+        }
+    }
+
+    [[nodiscard]] std::int64_t n_rows() const { return n_rows_; }
+
+private:
+    bool take(const Interruptible& interruptible) {
+        if (interruptible.is_noted()) source_.stop();
+        live::Record record;
+        const RecordSource::Next next = source_.next(record);
+        if (next == RecordSource::Next::end) return false;
+        const std::optional<double> tick_s = source_.tick_s();
+        if (next == RecordSource::Next::nothing || !tick_s) return true;
+        if (recording_) recording_->write(record.angle, *tick_s, settings_);
+        book_.add(record, *tick_s);
+        ++n_rows_;
+        return true;
+    }
+
+    void flush_now_and_then() {
+        using Clock = std::chrono::steady_clock;
+        constexpr std::chrono::milliseconds flush_every{500};
+        const auto now = Clock::now();
+        if (!recording_ || now - flushed_ < flush_every) return;
+        recording_->flush();
+        flushed_ = now;
+    }
+
+    RecordSource& source_;
+    live::RecordBook& book_;
+    logs::Settings settings_;
+    std::optional<AngleRecording> recording_;
+    std::int64_t n_rows_ = 0;
+    std::chrono::steady_clock::time_point flushed_{};
+};
+
+// Since `complain` waits for the end of the program, a page would be open before it is said where.
+void announce(std::uint16_t port) {
+    print(fmt::format("open http://127.0.0.1:{}/ in a browser of this machine; Ctrl-C ends\n", port));
+}
+
+// Serves until a signal comes, also when the source has ended; with `out` the angles are recorded meanwhile.
+void follow_in_page(const LabFollowOptions& options) {
+    if (!options.out.empty()) {
+        (void)log_format(options.out);
+        refuse_own_input(options.source, options.out);
+    }
+    std::string page = live_lab_page();
+    const std::unique_ptr<RecordSource> source = opened(options);
+    live::RecordBook book{options.source == "-" ? "standard input" : options.source, source->tells_health()};
+    Receiver receiver{options, *source, book};
+    const Interruptible interruptible;
+    interruptible.will_finish();
+    const live::PageServer server{std::move(page), book, options.port};
+    announce(server.port());
+    receiver.receive(interruptible);
+    if (receiver.n_rows() == 0 && !interruptible.is_noted())
+        throw logs::IoError{fmt::format("{}: has ended without a tick of a gyro in it", printable(options.source))};
+    for (const std::string& warning : source->warnings()) complain("warning: " + warning);
+    book.end();
+    // What has come is still there to be looked at.
+    while (!interruptible.is_noted()) std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    if (!options.out.empty()) print(fmt::format("{}: {} ticks\n", printable(options.out), receiver.n_rows()));
+}
 
 constexpr std::uint16_t default_port = 8137;
 
