@@ -31,16 +31,15 @@ constexpr std::uint32_t not_measured = core::flag_switching | core::flag_extrapo
 // Ticks as they come, as rates.
 class TickRates {
 public:
-    TickRates(const std::string& path, double tick_s, config::AngleColumn column) : tick_s_(tick_s), column_(column) {
+    TickRates(const std::string& path, double tick_s) : tick_s_(tick_s) {
         axis_.name = name_of_file(path);
         axis_.group = path;
-        axis_.holds = fmt::format("{} angle of ticks of {} s",
-                                  column == config::AngleColumn::final ? "final" : "delivered", tick_s);
+        axis_.holds = fmt::format("final angle of ticks of {} s", tick_s);
         axis_.rate_hz = 1.0 / tick_s;
     }
 
     void take(const core::AngleRow& row, double truth_arcsec = missing) {
-        const double angle = column_ == config::AngleColumn::final ? row.dtheta_final_arcsec : row.dtheta_arcsec;
+        const double angle = row.dtheta_final_arcsec;
         const bool known = (row.flags & not_measured) == 0;
         axis_.rates_arcsec_s.push_back(known ? angle / tick_s_ : missing);
         axis_.bridged_arcsec_s.push_back(angle / tick_s_);
@@ -73,7 +72,6 @@ private:
     study::AxisRecord axis_;
     std::vector<double> truth_;
     double tick_s_;
-    config::AngleColumn column_;
 };
 
 // The times of the rows must bear out the length of a tick.
@@ -90,7 +88,7 @@ config::Config read_angles(const Options& options, const std::string& path, std:
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
     const config::Config config = load_log_config(options, reader.header().settings, path, LogFacts::tick);
     note_former_keys(reader.header().settings, path);
-    TickRates ticks(path, config.gyro.tick_s, config.analysis.angles);
+    TickRates ticks(path, config.gyro.tick_s);
     logs::TimedAngle angle;
     Progress progress;
     double first_s = missing;
@@ -111,7 +109,7 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
     logs::RawReader raw = open_raw(options, path);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
     const recorded::LogCompensation asked = log_compensation(options, raw.header(), path);
-    TickRates ticks(path, asked.config.gyro.tick_s, asked.config.analysis.angles);
+    TickRates ticks(path, asked.config.gyro.tick_s);
     rig::Replay replay{asked.compensation};
     const auto take = [&](const core::AngleRow& row) { ticks.take(row); };
     core::HalfRecord record;

@@ -3,7 +3,7 @@
 #include <zlg/noise/noise_units.hpp>
 #include <zlg/study/term_text.hpp>
 
-#include "analysis_text.hpp"
+#include "analysis_json.hpp"
 #include "fields_json.hpp"
 
 namespace zlg::cli {
@@ -101,7 +101,7 @@ json table_json(const study::TableResult& test) {
 
 }  // namespace
 
-json analysis_json(const config::Analysis& config, const study::AnalysisResult& result) {
+json analysis_json(const study::AnalysisResult& result) {
     json j{{"axes", json::array()}};
     for (const AxisResult& axis : result.axes) j["axes"].push_back(axis_json(axis));
     j["earth"] = fields_json(result.earth, {{"n_axes", "axes"}});
@@ -112,10 +112,6 @@ json analysis_json(const config::Analysis& config, const study::AnalysisResult& 
                          {"rate_random_walk_arcsec_s_sqrt_s", result.presumed->terms.rate_random_walk_arcsec_s_sqrt_s},
                          {"data_sheet", fields_json(noise::data_sheet(result.presumed->terms))}};
     for (const auto& test : result.tables) j["rate_tables"].push_back(table_json(test));
-    if (config.latitude_deg)
-        j["latitude"] = {{"deg", *config.latitude_deg},
-                         {"vertical_arcsec_s", study::earth_vertical_arcsec_s(*config.latitude_deg)},
-                         {"horizontal_arcsec_s", study::earth_horizontal_arcsec_s(*config.latitude_deg)}};
     return j;
 }
 

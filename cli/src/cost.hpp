@@ -1,9 +1,8 @@
 #pragma once
-// What work will cost, before it begins or soon after.
+// What work will cost, before it begins.
 
 #include <cstdint>
 #include <string>
-#include <utility>
 
 namespace zlg::cli {
 
@@ -19,24 +18,5 @@ inline constexpr double wire_bytes = 124.0;
 // out     a file or folder on the disk that takes the run; empty: where the program was called.
 // errors  logs::IoError where the disk cannot take two thirds of it: key, what is needed, what is free.
 void require_room(std::int64_t ticks, double bytes_a_tick, const std::string& out);
-
-// A second after work has begun, a warning of what lasts over five minutes or fills a gigabyte.
-class Growth {
-public:
-    // part  the file that grows; empty: only the time is watched.
-    explicit Growth(std::string part) : part_{std::move(part)} {}
-
-    // To be called now and then: what part of the work was done in which time.
-    //
-    // errors  logs::IoError where the disk cannot hold two thirds of the file.
-    void look(double past_s, double fraction);
-
-private:
-    double expected_bytes(double fraction);
-
-    std::string part_;
-    bool is_over_ = false;
-    double bytes_ = 0.0;
-};
 
 }  // namespace zlg::cli

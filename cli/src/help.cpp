@@ -121,6 +121,16 @@ void complete(CLI::App& verb) {
     verb.footer(fmt::format("Examples:\n{}", row->examples));
 }
 
+std::vector<const CLI::App*> all_verbs(const CLI::App& program) {
+    return program.get_subcommands([](const CLI::App*) { return true; });
+}
+
+std::string help_text(const CLI::App& program, const CLI::App& app) {
+    // Not App::help, which for the program shows the verb that was parsed.
+    const std::string call = &app == &program ? "zlg" : "zlg " + app.get_name();
+    return program.get_formatter()->make_help(&app, call, CLI::AppFormatMode::Normal);
+}
+
 void add_help(CLI::App& program) {
     const auto name = std::make_shared<std::string>();
     CLI::App* help = program.add_subcommand("help", "the options of a verb, with examples");
@@ -135,20 +145,10 @@ void add_help(CLI::App& program) {
 
 }  // namespace
 
-std::vector<const CLI::App*> all_verbs(const CLI::App& program) {
-    return program.get_subcommands([](const CLI::App*) { return true; });
-}
-
 const CLI::App* find_verb(const CLI::App& program, const std::string& name) {
     const std::vector<const CLI::App*> all = all_verbs(program);
     const auto found = std::ranges::find(all, name, &CLI::App::get_name);
     return found == all.end() ? nullptr : *found;
-}
-
-std::string help_text(const CLI::App& program, const CLI::App& app) {
-    // Not App::help, which for the program shows the verb that was parsed.
-    const std::string call = &app == &program ? "zlg" : "zlg " + app.get_name();
-    return program.get_formatter()->make_help(&app, call, CLI::AppFormatMode::Normal);
 }
 
 void complete_help(CLI::App& program) {

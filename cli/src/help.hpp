@@ -2,7 +2,6 @@
 // What the help says beyond the options themselves: groups of verbs, examples, what kind of value an option takes.
 
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -11,13 +10,8 @@ namespace zlg::cli {
 // Adds it to all verbs, and to each the option --quiet; then the verb `help`. To be called when all verbs are there.
 void complete_help(CLI::App& program);
 
-[[nodiscard]] std::vector<const CLI::App*> all_verbs(const CLI::App& program);
-
 // Null where there is none of this name.
 [[nodiscard]] const CLI::App* find_verb(const CLI::App& program, const std::string& name);
-
-// What --help prints of the program, or of a verb of it.
-[[nodiscard]] std::string help_text(const CLI::App& program, const CLI::App& app);
 
 // One line: a verb of this name is not there, and which one is the nearest.
 [[nodiscard]] std::string unknown_verb(const CLI::App& program, const std::string& name);

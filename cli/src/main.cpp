@@ -4,7 +4,6 @@
 
 #include "help.hpp"
 #include "interrupt.hpp"
-#include "manual.hpp"
 #include "output.hpp"
 #include "program.hpp"
 #include "verbs.hpp"
@@ -40,7 +39,6 @@ int main(int argc, char** argv) {
     cli::add_lab(program);
     cli::add_analyze(program);
     cli::complete_help(program);
-    cli::add_manual(program);
     const cli::InterruptGuard guard;
     return cli::run_program(program, argc, argv);
 }

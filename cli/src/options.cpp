@@ -7,6 +7,7 @@
 #include <zlg/config/log_settings.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/table_file.hpp>
+#include <zlg/logs/unfinished.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/text/inputs.hpp>
 
@@ -137,6 +138,17 @@ void require_suffix(const std::string& path, std::string_view suffix) {
     const std::string found = std::filesystem::path{path}.extension();
     if (found != suffix)
         throw UsageError{fmt::format("{}: the suffix '{}' names no format; allowed is {}", path, found, suffix)};
+}
+
+void write_all(const std::vector<Output>& outputs, bool force) {
+    const logs::Together all_or_none;
+    std::vector<logs::TableFile> files;
+    for (const Output& o : outputs) {
+        files.emplace_back(o.path, force);
+        files.back().append(o.text);
+        files.back().flush();
+    }
+    for (logs::TableFile& file : files) file.close();
 }
 
 void write_file(const std::string& path, const std::string& text, bool force) {

@@ -90,6 +90,15 @@ void refuse_own_input(const std::string& input, const std::string& output, const
 // errors  UsageError: the name has another suffix.
 void require_suffix(const std::string& path, std::string_view suffix);
 
+// All or none: none gets its name before all are written.
+//
+// errors  logs::IoError.
+struct Output {
+    std::string path;
+    std::string text;
+};
+void write_all(const std::vector<Output>& outputs, bool force);
+
 // errors  logs::IoError.
 void write_file(const std::string& path, const std::string& text, bool force);
 

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +15,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/text/escape.hpp>
 
+#include "cost.hpp"
 #include "failure.hpp"
 
 namespace zlg::cli {
@@ -81,8 +81,7 @@ std::string printable(const std::string& text) { return text::escaped(text); }
 
 std::string name_of_file(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
 
-Progress::Progress(std::string part)
-    : growth_{std::move(part)}, is_drawn_{!is_quiet && isatty(STDERR_FILENO) != 0}, started_s_{now_s()} {}
+Progress::Progress() : is_drawn_{!is_quiet && isatty(STDERR_FILENO) != 0}, started_s_{now_s()} {}
 
 Progress::~Progress() {
     if (drawn_) (void)std::fputs(fmt::format("\r{:{}}\r", "", line_width).c_str(), stderr);
@@ -90,7 +89,6 @@ Progress::~Progress() {
 
 void Progress::show(double fraction, double whole, std::string_view unit) {
     const double t_s = now_s();
-    growth_.look(t_s - started_s_, fraction);
     if (t_s - started_s_ < quiet_for_s || t_s - last_s_ < redraw_every_s) return;
     last_s_ = t_s;
     print_warnings();

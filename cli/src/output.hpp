@@ -5,8 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "cost.hpp"
-
 namespace zlg::cli {
 
 // Then the notes that wait (failure.hpp).
@@ -24,18 +22,15 @@ void print(std::string_view text);
 // that wait are printed then, on a terminal or not.
 class Progress {
 public:
-    // part  what grows meanwhile, for a warning of work that will last long or fill the disk; empty: no warning.
-    explicit Progress(std::string part = {});
+    Progress();
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
     // unit    where the rate of the work is shown: whole work in such units, as 1000 "gyros".
-    // errors  logs::IoError where the disk cannot hold `part` when it is done.
     void show(double fraction, double whole = 0.0, std::string_view unit = {});
 
 private:
-    Growth growth_;
     bool is_drawn_;  // on a terminal, and wanted
     bool drawn_ = false;
     double started_s_;

@@ -37,7 +37,7 @@ export function with_fault(settings: string[], fault: Fault, now_s: number, to_s
 }
 
 // What stands where the gyro has reported nothing. What a fault does is seen a second later at most.
-export function nothing(fault: MadeFault, time_s: number): string {
+export function words_without_alarm(fault: MadeFault, time_s: number): string {
     if (time_s > fault.end_s + 1) return "nothing; it did no harm, or none that the gyro can see";
     return of_a_switch(fault.kind) ? "nothing yet; it acts on the next switch" : "nothing yet";
 }

@@ -3,7 +3,7 @@ import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
 import { element, marked } from "./elements";
 import { listen_to_exports } from "./export";
-import { fault_buttons, type MadeFault, made_fault, nothing, with_fault } from "./faults";
+import { fault_buttons, type MadeFault, made_fault, words_without_alarm, with_fault } from "./faults";
 import { DesignView } from "./design_view";
 import { choose_file, on_drop } from "./files";
 import { follows_records } from "./follow";
@@ -171,7 +171,7 @@ class Lab {
 
     private show_fault({ raised_since_fault, time_s }: Frame): void {
         const has_come = this.fault !== null && raised_since_fault !== null && time_s >= this.fault.at_s;
-        const found = has_come ? this.health!.report(raised_since_fault!) || nothing(this.fault!, time_s) : "";
+        const found = has_come ? this.health!.report(raised_since_fault!) || words_without_alarm(this.fault!, time_s) : "";
         const text = found && `Reported since the last fault: ${found}.`;
         if (element("fault-report").textContent !== text) element("fault-report").textContent = text;
     }

@@ -49,7 +49,7 @@ py::list logs_of(const study::CalibrationResult& result) {
 // `held` of each log that is in memory, by its name; the others are files.
 py::dict calibrate(const std::vector<std::string>& names, const py::dict& held,
                    const std::vector<double>& rate_arcsec_s, const config::Config& said, const py::object& progress) {
-    const Progress tell{progress};
+    const Progress notify{progress};
     std::map<std::string, HeldLog> in_memory;
     for (const auto& [name, each] : held) {
         const auto columns = py::cast<py::dict>(each);
@@ -66,7 +66,7 @@ py::dict calibrate(const std::vector<std::string>& names, const py::dict& held,
                                  .rate_arcsec_s = rate_arcsec_s,
                                  .said = said,
                                  .open = open,
-                                 .on_progress = std::cref(tell)});
+                                 .on_progress = std::cref(notify)});
     });
     py::list constants;
     py::dict not_determined;

@@ -54,7 +54,7 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
     config::check_against_log(config, log.settings, "the log");
     recorded::LogCompensation asked = recorded::log_compensation(config, log, "the log");
     rig::Replay replay{asked.compensation};
-    const Progress tell{progress};
+    const Progress notify{progress};
     AngleCollector angles;
     study::SwitchTable switches{asked.config.compensation.relock_ticks};
     study::HalfWaveReplay half_wave{asked.config};
@@ -73,7 +73,7 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
             first = half;
             half_wave.take(half);
             replay.take(half, raw.light(row), add, note);
-            if (row % 65536 == 0) tell(static_cast<double>(row) / static_cast<double>(raw.size()));
+            if (row % 65536 == 0) notify(static_cast<double>(row) / static_cast<double>(raw.size()));
         }
         replay.end(add, note);
     }

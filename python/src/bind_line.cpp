@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <zlg/logs/follower.hpp>
+#include <zlg/study/fields.hpp>
 
 #include "bind.hpp"
 #include "log_columns.hpp"
@@ -42,15 +43,10 @@ public:
     [[nodiscard]] py::dict summary() {
         const Use use{is_busy_, "line"};
         const logs::WireSummary& s = follower_->rows().summary();
-        return py::dict("ticks"_a = follower_->n_rows(), "angle_arcsec"_a = follower_->angle_arcsec(),
-                        "bytes"_a = s.n_bytes, "telemetry_messages"_a = s.n_telemetry, "status_messages"_a = s.n_status,
-                        "replies"_a = s.n_replies, "lost_messages"_a = s.n_lost_messages,
-                        "lost_ticks"_a = s.n_lost_rows, "final_lost_ticks"_a = s.n_final_lost_rows,
-                        "restarts"_a = s.n_restarts, "outages"_a = s.n_outages, "outage_ticks"_a = s.n_outage_ticks,
-                        "outage_arcsec"_a = s.outage_arcsec, "other_tick_messages"_a = s.n_other_tick,
-                        "unfitting_messages"_a = s.n_unfitting, "damaged_frames"_a = s.n_damaged,
-                        "damaged_bytes"_a = s.n_damaged_bytes, "foreign_frames"_a = s.n_foreign,
-                        "refused_messages"_a = s.n_refused, "repeated_messages"_a = s.n_repeated);
+        py::dict d("ticks"_a = follower_->n_rows(), "angle_arcsec"_a = follower_->angle_arcsec(),
+                   "outage_arcsec"_a = s.outage_arcsec);
+        for (const study::LineCount& count : study::line_counts) d[count.name] = s.*count.member;
+        return d;
     }
 
 private:

@@ -31,7 +31,7 @@ std::string kind(const std::string& path) {
 
 py::dict read_raw(const std::string& path, bool light, const py::object& progress) {
     RawCollector rows;
-    const Progress tell{progress};
+    const Progress notify{progress};
     std::optional<logs::RawReader> reader;
     {
         const py::gil_scoped_release released;
@@ -39,7 +39,7 @@ py::dict read_raw(const std::string& path, bool light, const py::object& progres
         core::HalfRecord record;
         for (std::size_t n = 1; reader->next(record); ++n) {
             rows.add(record, light ? reader->light() : core::LightSamples{});
-            if (n % rows_per_report == 0) tell(reader->fraction_read());
+            if (n % rows_per_report == 0) notify(reader->fraction_read());
         }
     }
     py::dict columns = rows.take_out();
@@ -63,7 +63,7 @@ py::dict read_raw(const std::string& path, bool light, const py::object& progres
 void write_raw(const std::string& path, const py::dict& columns, const config::Settings& settings, double timer_hz,
                bool force, const py::object& progress) {
     const RawView rows{columns};
-    const Progress tell{progress};
+    const Progress notify{progress};
     const logs::RawColumns kept = header_of(columns, timer_hz);
     const auto version = py::cast<logs::FormatVersion>(columns["format_version"]);
     const py::gil_scoped_release released;
@@ -74,7 +74,7 @@ void write_raw(const std::string& path, const py::dict& columns, const config::S
         kept,
         {.light_samples = rows.light_samples(), .light_b = rows.has_light_b(), .format_version = version}};
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        if (row % rows_per_report == 0) tell(static_cast<double>(row) / static_cast<double>(rows.size()));
+        if (row % rows_per_report == 0) notify(static_cast<double>(row) / static_cast<double>(rows.size()));
         writer.write(rows.record(row), rows.light(row));
     }
     writer.close();
@@ -82,7 +82,7 @@ void write_raw(const std::string& path, const py::dict& columns, const config::S
 
 py::dict read_angles(const std::string& path, const py::object& progress) {
     AngleCollector rows;
-    const Progress tell{progress};
+    const Progress notify{progress};
     std::optional<logs::AngleReader> reader;
     {
         const py::gil_scoped_release released;
@@ -91,7 +91,7 @@ py::dict read_angles(const std::string& path, const py::object& progress) {
         logs::TimedAngle angle;
         while (reader->next(angle)) {
             has_truth ? rows.add(angle.row, angle.truth_dtheta_arcsec) : rows.add(angle.row);
-            if (rows.size() % rows_per_report == 0) tell(reader->fraction_read());
+            if (rows.size() % rows_per_report == 0) notify(reader->fraction_read());
         }
     }
     py::dict columns = rows.take_out();
@@ -105,12 +105,12 @@ py::dict read_angles(const std::string& path, const py::object& progress) {
 void write_angles(const std::string& path, const py::dict& columns, double tick_s, const config::Settings& settings,
                   bool force, const py::object& progress) {
     const AngleView rows{columns};
-    const Progress tell{progress};
+    const Progress notify{progress};
     const auto version = py::cast<logs::FormatVersion>(columns["format_version"]);
     const py::gil_scoped_release released;
     logs::AngleWriter writer{path, tick_s, settings, force, {.has_truth = rows.has_truth(), .format_version = version}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (i % rows_per_report == 0) tell(static_cast<double>(i) / static_cast<double>(rows.size()));
+        if (i % rows_per_report == 0) notify(static_cast<double>(i) / static_cast<double>(rows.size()));
         writer.write(rows.angle(i), rows.truth_arcsec(i));
     }
     writer.close();

@@ -27,7 +27,7 @@ py::dict advance(Loop& shared, std::int64_t halves, bool light, const py::object
     RawCollector rows;
     std::vector<std::uint32_t> health;
     std::vector<double> turned, false_relock, detuning;
-    const Progress tell{progress};
+    const Progress notify{progress};
     {
         const py::gil_scoped_release released;
         rows.reserve(n), health.reserve(n), turned.reserve(n), false_relock.reserve(n), detuning.reserve(n);
@@ -38,7 +38,7 @@ py::dict advance(Loop& shared, std::int64_t halves, bool light, const py::object
             turned.push_back(out.truth.dtheta_arcsec);
             false_relock.push_back(out.truth.false_relock_arcsec);
             detuning.push_back(out.truth.detuning_end_lambda);
-            if (half % 16384 == 0) tell(static_cast<double>(half) / static_cast<double>(n));
+            if (half % 16384 == 0) notify(static_cast<double>(half) / static_cast<double>(n));
         }
     }
     py::dict columns = rows.take_out();

@@ -28,10 +28,10 @@ py::dict of(study::VariantResult&& v) {
 
 py::dict run(const config::Config& config, const std::vector<std::string>& warnings, bool raw, bool angles, bool page,
              int threads, const py::object& progress) {
-    const Progress tell{progress};
+    const Progress notify{progress};
     RawCollector records;
     AngleCollector rows;
-    study::RunTask task{.config = config, .warnings = warnings, .threads = threads, .on_progress = std::cref(tell)};
+    study::RunTask task{.config = config, .warnings = warnings, .threads = threads, .on_progress = std::cref(notify)};
     if (raw) task.on_record = [&](const core::HalfRecord& r, const core::LightSamples&) { records.add(r); };
     if (angles) task.on_row = [&](const core::AngleRow& row, double truth) { rows.add(row, truth); };
     study::RunResult result;
@@ -66,7 +66,7 @@ py::dict run(const config::Config& config, const std::vector<std::string>& warni
 }
 
 py::dict paper(const config::Config& config, int threads, int switches_per_point, const py::object& progress) {
-    const Progress tell{progress};
+    const Progress notify{progress};
     paper::Paper result;
     std::string html;
     {
@@ -74,7 +74,7 @@ py::dict paper(const config::Config& config, int threads, int switches_per_point
         result = paper::recompute_paper({.config = config,
                                          .threads = threads,
                                          .switches_per_point = switches_per_point,
-                                         .on_progress = std::cref(tell)});
+                                         .on_progress = std::cref(notify)});
         html = report::html(paper::paper_page(result));
     }
     py::list claims;
@@ -120,7 +120,7 @@ py::dict of(const study::AxisResult& axis) {
 // The records are taken out of `axes`.
 py::dict analyze(const config::Config& config, Axes& axes, std::int64_t settling_samples, int threads,
                  const py::object& progress) {
-    const Progress tell{progress};
+    const Progress notify{progress};
     std::vector<study::AxisRecord> records = std::move(axes.records);
     study::AnalysisResult result;
     std::string html;
@@ -128,7 +128,7 @@ py::dict analyze(const config::Config& config, Axes& axes, std::int64_t settling
         const py::gil_scoped_release released;
         const study::AnalysisTask task{config.analysis, settling_samples, threads};
         for (study::AxisRecord& record : records) {
-            tell(static_cast<double>(result.axes.size()) / static_cast<double>(records.size()));
+            notify(static_cast<double>(result.axes.size()) / static_cast<double>(records.size()));
             result.axes.push_back(study::analyze_axis(task, std::move(record)));
         }
         result.earth = study::earth_lines(result.axes);

@@ -192,10 +192,10 @@ def convert(source: Path, target: Path, force: bool = False, progress: Progress 
     that is no log.
     """
 
-    tell = progress if progress is not None else lambda fraction: None
+    notify = progress if progress is not None else lambda fraction: None
 
     def half(first: int) -> Progress:
-        return lambda fraction: tell(0.5 * (first + fraction))
+        return lambda fraction: notify(0.5 * (first + fraction))
 
     found = kind(source)
     if found == "raw":

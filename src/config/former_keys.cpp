@@ -9,8 +9,9 @@ namespace zlg::config {
 namespace {
 
 constexpr std::string_view motion_is_learnt = "leave it out: the motion is learnt";
+constexpr std::string_view value_is_fixed = "leave it out: its default is what is done";
 
-constexpr std::array<FormerKey, 9> formers{{
+constexpr std::array<FormerKey, 32> formers{{
     {"gyro", "coil_current", "", 3, "leave it out: the current is monitored, and not recorded"},
     {"switching", "after_step", "", 3, "leave it out: a switch waits for its time"},
     {"switching", "schedule", "growing", 3, "take switching.schedule = \"measured\""},
@@ -20,6 +21,30 @@ constexpr std::array<FormerKey, 9> formers{{
     {"compensation", "prior_rate_arcsec_s", "", 3, motion_is_learnt},
     {"compensation", "prior_line_hz", "", 3, motion_is_learnt},
     {"compensation", "prior_line_arcsec_s", "", 3, motion_is_learnt},
+    {"gyro", "counter_max_hz", "", 3, "leave it out: the counter follows the bias and 400 deg/s"},
+    {"laser", "scatter_phase_deg", "", 3, value_is_fixed},
+    {"laser", "comparator_threshold", "", 3, value_is_fixed},
+    {"perimeter", "sample_gain", "", 3, value_is_fixed},
+    {"perimeter", "settled_tau_s", "", 3, value_is_fixed},
+    {"perimeter", "set_points", "", 3, value_is_fixed},
+    {"piezo", "mirror_damping", "", 3, value_is_fixed},
+    {"piezo", "dac_bits", "", 3, value_is_fixed},
+    {"piezo", "adc_bits", "", 3, value_is_fixed},
+    {"piezo", "adc_noise_v", "", 3, value_is_fixed},
+    {"photodiodes", "skew_s", "", 3, value_is_fixed},
+    {"photodiodes", "jitter_s", "", 3, value_is_fixed},
+    {"switching", "last_segment", "", 3, "leave it out: the last segment is what the end of the run leaves of it"},
+    {"switching", "switch_error_arcsec", "", 3, value_is_fixed},
+    {"switching", "magnetic_arcsec_s", "", 3, value_is_fixed},
+    {"faults", "vibration_hz", "", 3, value_is_fixed},
+    {"analysis", "taus_per_decade", "", 3, "name the times in analysis.taus_s"},
+    {"analysis", "taus", "log", 3, "name the times in analysis.taus_s"},
+    {"analysis", "least_known_ratio", "", 3, value_is_fixed},
+    {"analysis", "total_bias", "", 3, "leave it out: as_computed stands beside the deviation"},
+    {"analysis", "angles", "", 3, "leave it out: the final angles are analysed"},
+    {"analysis", "latitude_deg", "", 3,
+     "leave it out: the Earth turns 15.041067 arcsec/s times sine of latitude about the vertical"},
+    {"analysis", "table_same_rate_ratio", "", 3, value_is_fixed},
 }};
 
 // Without blanks about it and the quotes of a text.

@@ -19,7 +19,6 @@ constexpr std::array<std::string_view, 2> fidelities{"averaged", "laser"};
 constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
 constexpr std::array<std::string_view, 2> readouts{"count", "phase"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
-constexpr std::array<std::string_view, 2> last_segments{"any", "half"};
 constexpr std::array<std::string_view, 2> schedules{"fixed", "measured"};
 constexpr std::array<std::string_view, 3> magnetics{"none", "watch", "estimate"};
 constexpr std::array<std::string_view, 5> relocks{"none", "frequency", "detuning", "mean_square", "joint"};
@@ -29,10 +28,8 @@ constexpr std::array<std::string_view, 2> column_holds{"increment", "rate"};
 
 constexpr std::array<std::string_view, 9> deviations{"adev",  "oadev",  "mdev",    "tdev",   "hdev",
                                                      "ohdev", "totdev", "mtotdev", "htotdev"};
-constexpr std::array<std::string_view, 3> total_biases{"removed", "published", "as_computed"};
-constexpr std::array<std::string_view, 4> tau_spacings{"octave", "decade", "log", "all"};
+constexpr std::array<std::string_view, 3> tau_spacings{"octave", "decade", "all"};
 constexpr std::array<std::string_view, 4> shown_rates{"deg/h", "arcsec/s", "deg/s", "rad/s"};
-constexpr std::array<std::string_view, 2> angle_columns{"final", "delivered"};
 constexpr std::array<std::string_view, 3> text_holds{"increment", "rate", "phase"};
 
 constexpr std::array<std::string_view, 6> separators{"auto", "space", "tab", "semicolon", "comma", "bar"};
@@ -44,7 +41,6 @@ constexpr std::int64_t int32_max = std::numeric_limits<std::int32_t>::max();
 constexpr Range fault_time{.min = 0.0, .max = 1e9};
 
 constexpr Range long_interval{.min = 0.0, .max = 1e9, .without_min = true};
-constexpr Range schedule_number{.min = 0.0, .max = 1e12, .without_min = true};
 
 constexpr Range drift_sigma{.min = 0.0, .max = 1e6};
 constexpr Range presumed_drift{.min = -1e6, .max = 1e6};
@@ -92,9 +88,6 @@ const Key table[] = {
      Real{at<&C::gyro, &Gyro::discriminator_per_lambda>, slope}},
     {"gyro", "dither", "", "shifts of the bias edges against lock-in; auto: paired at low rates, random at high ones",
      choice<&C::gyro, &Gyro::dither>(dithers)},
-    {"gyro", "counter_max_hz", "Hz",
-     "fringe rate above which the counter loses counts; unset: 1.01 times that of bias_hz and 400 deg/s",
-     OptionalReal{at<&C::gyro, &Gyro::counter_max_hz>, positive}},
 
     {"gyro", "readout", "",
      "what is latched of the beat: whole counts, or with both photodiodes the place within the fringe too",
@@ -125,10 +118,6 @@ const Key table[] = {
      Real{at<&C::laser, &Laser::lock_in_left_hz>, {.min = 0.0, .max = 1e6}}},
     {"laser", "lock_in_right_hz", "Hz", "beat frequency below which equal waves of the right mode lock",
      Real{at<&C::laser, &Laser::lock_in_right_hz>, {.min = 0.0, .max = 1e6}}},
-    {"laser", "scatter_phase_deg", "deg", "phase by which the waves scattered back by the mirrors miss each other",
-     Real{at<&C::laser, &Laser::scatter_phase_deg>, {.min = -85.0, .max = 85.0}}},
-    {"laser", "comparator_threshold", "", "of the fringe comparators, over the amplitude of the beat at the centre",
-     Real{at<&C::laser, &Laser::comparator_threshold>, {.min = 0.0, .max = 0.5}}},
     {"laser", "quadrature", "",
      "counts a fringe; gyro.scale_arcsec and gyro.bias_hz are those of counts: x4 takes a quarter and four times of "
      "x1's",
@@ -159,12 +148,6 @@ const Key table[] = {
     {"perimeter", "relock_halves", "",
      "digital loop: halves after closing in which it corrects nearly all it sees; 0: the plain integrator of tau_s",
      integer<&C::perimeter, &Perimeter::relock_halves>(0, 1000000)},
-    {"perimeter", "sample_gain", "", "digital loop, in these halves: part of the detuning corrected per light sample",
-     Real{at<&C::perimeter, &Perimeter::sample_gain>, {.min = 1e-9, .max = 1.0}}},
-    {"perimeter", "settled_tau_s", "s", "digital loop, after these halves: its time constant",
-     Real{at<&C::perimeter, &Perimeter::settled_tau_s>, {.min = 0.0, .max = 1e6, .without_min = true}}},
-    {"perimeter", "set_points", "", "set-points a half, of an open loop and of a digital one with relock_halves",
-     integer<&C::perimeter, &Perimeter::set_points>(1, core::max_set_points)},
     {"perimeter", "discriminator_detuning_lambda", "lambda",
      "calibrated points of the discriminator besides 0, growing, 31 at most on a side; those above 0 alone: the "
      "other side is their mirror image; none: gyro.discriminator_per_lambda alone",
@@ -200,13 +183,6 @@ const Key table[] = {
      Real{at<&C::piezo, &Piezo::creep_per_decade>, {.min = 0.0, .max = 0.05}}},
     {"piezo", "mirror_hz", "Hz", "resonance of the mirror; 0: rigid, else 100 or more",
      Real{at<&C::piezo, &Piezo::mirror_hz>, {.min = 100.0, .max = 1e6, .or_zero = true}}},
-    {"piezo", "mirror_damping", "", "damping of that resonance, as a part of the critical",
-     Real{at<&C::piezo, &Piezo::mirror_damping>, {.min = 1e-3, .max = 0.999}}},
-    {"piezo", "dac_bits", "", "resolution of the set-point", integer<&C::piezo, &Piezo::dac_bits>(1, 24)},
-    {"piezo", "adc_bits", "", "resolution of the voltage that is read back",
-     integer<&C::piezo, &Piezo::adc_bits>(1, 24)},
-    {"piezo", "adc_noise_v", "V", "noise of the voltage that is read back",
-     Real{at<&C::piezo, &Piezo::adc_noise_v>, non_negative}},
 
     {"light", "gain_b", "", "photodiode of beam B over that of beam A at t = 0",
      Real{at<&C::light, &Light::gain_b>, {.min = 0.01, .max = 100.0}}},
@@ -231,10 +207,6 @@ const Key table[] = {
      Real{at<&C::photodiodes, &Photodiodes::noise>, {.min = 0.0, .max = 1.0}}},
     {"photodiodes", "adc_bits", "", "resolution of the samples, for twice the amplitude of either sign",
      integer<&C::photodiodes, &Photodiodes::adc_bits>(1, 24)},
-    {"photodiodes", "skew_s", "s", "from the latch of the counter to the sampling of the photodiodes",
-     Real{at<&C::photodiodes, &Photodiodes::skew_s>, {.min = -1e-3, .max = 1e-3}}},
-    {"photodiodes", "jitter_s", "s", "scatter of that time",
-     Real{at<&C::photodiodes, &Photodiodes::jitter_s>, {.min = 0.0, .max = 1e-3}}},
 
     {"switching", "interval_s", "s",
      "from one opening of the loop to the next; at least gap_ticks + 2 ticks, and no shorter than the loop needs to "
@@ -242,9 +214,6 @@ const Key table[] = {
      Interval{long_interval}},
     {"switching", "first_segment", "", "length of the first segment: an interval or half of one",
      choice<&C::switching, &Switching::first_segment>(first_segments)},
-    {"switching", "last_segment", "",
-     "half: the last switch before the end of the run comes where the times in both modes are equal at the end",
-     choice<&C::switching, &Switching::last_segment>(last_segments)},
     {"switching", "schedule", "",
      "fixed: a grid of interval_s; measured: with the cube root of time, by the errors of the switches and the drift "
      "that compensation finds",
@@ -253,11 +222,6 @@ const Key table[] = {
      Real{at<&C::switching, &Switching::interval_min_s>, long_interval}},
     {"switching", "interval_max_s", "s", "longest interval of a schedule that is not fixed",
      Real{at<&C::switching, &Switching::interval_max_s>, long_interval}},
-    {"switching", "switch_error_arcsec", "arcsec",
-     "rms error of one switch, presumed by a schedule that is not fixed until it is measured",
-     Real{at<&C::switching, &Switching::switch_error_arcsec>, schedule_number}},
-    {"switching", "magnetic_arcsec_s", "arcsec/s", "drift that changes its sign with the mode, presumed likewise",
-     Real{at<&C::switching, &Switching::magnetic_arcsec_s>, schedule_number}},
     {"switching", "gap_ticks", "", "ticks for which the loop stays open at a switch",
      integer<&C::switching, &Switching::gap_ticks>(1, 40)},
     {"switching", "gap_min_ticks", "",
@@ -337,8 +301,6 @@ const Key table[] = {
      RealList{at<&C::faults, &Faults::duration_s>, fault_time, true}},
     {"faults", "size", "", "how large each is, in the unit of its kind",
      RealList{at<&C::faults, &Faults::size>, any_finite, true}},
-    {"faults", "vibration_hz", "Hz", "frequency of the kind vibration",
-     Real{at<&C::faults, &Faults::vibration_hz>, {.min = 1e-3, .max = 1e6}}},
     {"faults", "random_per_hour", "1/h", "more of them at random moments",
      Real{at<&C::faults, &Faults::random_per_hour>, {.min = 0.0, .max = 1e6}}},
     {"faults", "random_seed", "", "seed of their moments, kinds, durations and sizes",
@@ -355,25 +317,14 @@ const Key table[] = {
 
     {"analysis", "deviations", "", "which deviations are computed; the first is the one that is drawn",
      choice_list<&C::analysis, &Analysis::deviations>(deviations)},
-    {"analysis", "taus", "", "averaging times: octave, decade (1, 2, 4, 10), log (taus_per_decade), all",
+    {"analysis", "taus", "", "averaging times: octave, decade (1, 2, 4, 10), all",
      choice<&C::analysis, &Analysis::taus>(tau_spacings)},
-    {"analysis", "taus_per_decade", "", "of taus = log", integer<&C::analysis, &Analysis::taus_per_decade>(1, 10000)},
     {"analysis", "taus_s", "s", "averaging times, instead of taus",
      RealList{at<&C::analysis, &Analysis::taus_s>, positive, true}},
     {"analysis", "confidence", "", "of the intervals",
      Real{at<&C::analysis, &Analysis::confidence>, {.min = 0.0, .max = 0.999999, .without_min = true}}},
-    {"analysis", "least_known_ratio", "", "share of an averaging time that must be known for it to count",
-     Real{at<&C::analysis, &Analysis::least_known_ratio>, {.min = 0.0, .max = 1.0, .without_min = true}}},
-    {"analysis", "total_bias", "",
-     "bias that mirroring gives totdev, mtotdev and htotdev: removed, removed as NIST publishes it, or as_computed, "
-     "which is what Stable32 and AllanTools print",
-     choice<&C::analysis, &Analysis::total_bias>(total_biases)},
     {"analysis", "unit", "", "of rates in text and report; JSON has arcsec/s",
      choice<&C::analysis, &Analysis::unit>(shown_rates)},
-    {"analysis", "angles", "", "which angle of an angle log: known afterwards, or as delivered in real time",
-     choice<&C::analysis, &Analysis::angles>(angle_columns)},
-    {"analysis", "latitude_deg", "deg", "where the gyro stood, to compare with the Earth's rate",
-     OptionalReal{at<&C::analysis, &Analysis::latitude_deg>, {.min = -90.0, .max = 90.0}}},
     {"analysis", "column", "", "columns of a text file, by number from 1 or by name; unset: 1, but no column of times",
      ColumnList{at<&C::analysis, &Analysis::column>}},
     {"analysis", "column_holds", "",
@@ -402,9 +353,6 @@ const Key table[] = {
      Real{at<&C::analysis, &Analysis::table_scale_arcsec_s>, non_zero}},
     {"analysis", "table_settling_s", "s", "beginning of each stage of the table that is left out",
      Real{at<&C::analysis, &Analysis::table_settling_s>, non_negative}},
-    {"analysis", "table_same_rate_ratio", "",
-     "rates of the table this near to each other, of its largest, are of one stage",
-     Real{at<&C::analysis, &Analysis::table_same_rate_ratio>, {.min = 0.0, .max = 1.0}}},
     {"analysis", "table_earth_arcsec_s", "arcsec/s",
      "rotation about the gyro's axis that the table does not show; the bias is then without it",
      Real{at<&C::analysis, &Analysis::table_earth_arcsec_s>, any_finite}},

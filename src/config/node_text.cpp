@@ -31,52 +31,20 @@ std::string text_of(double value) {
     return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
 }
 
-std::string text_of(const toml::date& d) { return fmt::format("{:04}-{:02}-{:02}", d.year, d.month, d.day); }
-
-std::string text_of(const toml::time& t) {
-    std::string text = fmt::format("{:02}:{:02}:{:02}", t.hour, t.minute, t.second);
-    if (t.nanosecond == 0) return text;
-    text += fmt::format(".{:09}", t.nanosecond);
-    return text.substr(0, text.find_last_not_of('0') + 1);
-}
-
-std::string text_of(const toml::date_time& at) {
-    std::string text = text_of(at.date) + "T" + text_of(at.time);
-    if (!at.offset) return text;
-    const int minutes = at.offset->minutes;
-    if (minutes == 0) return text + "Z";
-    const int size = minutes < 0 ? -minutes : minutes;
-    return fmt::format("{}{}{:02}:{:02}", text, minutes < 0 ? '-' : '+', size / 60, size % 60);
-}
-
 std::string text_of(const toml::array& values) {
     std::string text;
     for (const toml::node& value : values) text += (text.empty() ? " " : ", ") + text_of(value);
     return text.empty() ? "[]" : "[" + text + " ]";
 }
 
-std::string text_of(const toml::table& table) {
-    std::string text;
-    for (const auto& [key, value] : table) {
-        const bool is_bare = !key.str().empty() && std::all_of(key.str().begin(), key.str().end(), [](char c) {
-            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-        });
-        const std::string name = is_bare ? std::string{key.str()} : text_of(std::string{key.str()});
-        text += (text.empty() ? " " : ", ") + name + " = " + text_of(value);
-    }
-    return text.empty() ? "{}" : "{" + text + " }";
-}
-
-std::string text_of(bool value) { return value ? "true" : "false"; }
-std::string text_of(std::int64_t value) { return fmt::format("{}", value); }
-
-template <class T>
-std::string text_of(const toml::value<T>& value) {
-    return text_of(value.get());
-}
-
+// Of a date or a table its kind is said, not what is in it.
 std::string text_of(const toml::node& node) {
-    return node.visit([](const auto& value) { return text_of(value); });
+    if (const auto* text = node.as_string()) return text_of(text->get());
+    if (const auto* number = node.as_floating_point()) return text_of(number->get());
+    if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+    if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+    if (const auto* values = node.as_array()) return text_of(*values);
+    return "...";
 }
 
 }  // namespace

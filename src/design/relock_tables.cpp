@@ -11,7 +11,7 @@
 namespace zlg::design {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // Of the decays, in the order of the enumerators.
 constexpr std::array<std::string_view, 4> names{"exponential", "constant slew", "slew with exponential tail",
@@ -109,7 +109,7 @@ RelockFit minimise(F f, int n_grid) {
 
 double detuning_formula(double deficit, double first, double second) {
     const double rho = second / first;
-    if (!(rho > 0.0 && rho < 1.0)) return nothing;
+    if (!(rho > 0.0 && rho < 1.0)) return unknown;
     return -0.25 * deficit * std::log(rho) * (first + second) * (first + second);
 }
 
@@ -182,7 +182,7 @@ TickDrifts corrected_by_frequency_arcsec_s(const RelockModel& model) {
     for (std::size_t i = 0; i < drift.size(); ++i) {
         const std::size_t from = i == 0 ? 1 : i;
         const double q = std::pow(deficit[from] / deficit[0], 0.5 / static_cast<double>(from));
-        drift[i] = q > 0.0 && q < 1.0 ? deficit[i] * (1.0 - q) / (1.0 + q) : nothing;
+        drift[i] = q > 0.0 && q < 1.0 ? deficit[i] * (1.0 - q) / (1.0 + q) : unknown;
     }
     return drift;
 }

@@ -46,17 +46,9 @@ core::GyroCompensationConfig adviser_config(const config::Config& config) {
     return asked_compensation(watching);
 }
 
-// Tick at which the run ends, for a schedule that is to have spent equal times in both modes by then; else 0.
-std::int64_t balanced_end(const config::Config& config, const twin::Motion& motion) {
-    return config.switching.last_segment == config::LastSegment::half ? run_ticks(config, motion) : 0;
-}
-
 }  // namespace
 
 ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion, Processor* processor)
-    : ClosedLoop{config, balanced_end(config, motion), std::move(motion), processor} {}
-
-ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion, Processor* processor)
     : config_{config},
       twin_{make_twin(config, std::move(motion))},
       control_config_{control_config(config)},
@@ -65,7 +57,6 @@ ClosedLoop::ClosedLoop(const config::Config& config, std::int64_t end_tick, twin
       half_wave_{measured_half_wave(config)},
       sensor_{&before_the_first},
       processor_{processor} {
-    control_config_.schedule.end_tick = end_tick;
     if (processor_)
         actuator_ = processor_->start({control_config_, adviser_config(config)});
     else if (config.switching.schedule == config::Schedule::measured)

@@ -34,8 +34,7 @@ core::SwitchScheduleConfig schedule_of(const config::Config& config) {
             .kind = sw.schedule,
             .min_ticks = ticks_of(sw.interval_min_s, config.gyro.tick_s),
             .max_ticks = ticks_of(sw.interval_max_s, config.gyro.tick_s),
-            .tick_s = config.gyro.tick_s,
-            .presumed = {.switch_error_arcsec = sw.switch_error_arcsec, .magnetic_arcsec_s = sw.magnetic_arcsec_s}};
+            .tick_s = config.gyro.tick_s};
 }
 
 // Most counts of a half: one less than the fastest the counter can follow.
@@ -95,11 +94,11 @@ void require_loop(const config::Config& config, const core::PerimeterLoopConfig&
             {"piezo.half_wave_v", "piezo.half_wave_error"},
             "a presumed half-wave voltage, half_wave_v (1 + half_wave_error), of 1e-3..1e6 V");
     require(is_above_0(loop.half_period.value(), 1e3), {"gyro.tick_s"}, "above 0 up to 1e3 s");
-    require(is_above_0(loop.time_constant.value(), 1e6), {"perimeter.tau_s", "perimeter.settled_tau_s"}, "up to 1e6 s");
+    require(is_above_0(loop.time_constant.value(), 1e6), {"perimeter.tau_s"}, "up to 1e6 s");
     require(is_above_0(loop.error_limit.value(), 1e3), {"perimeter.limit_lambda"}, "above 0 up to 1e3");
     require(is_above_0(loop.slew_v_s, 1e12), {"piezo.slew_v_s"}, "above 0 up to 1e12 V/s");
-    require(is_allowed(loop), {"perimeter.sample_gain", "gyro.light_samples", "perimeter.relock_halves", "piezo.rc_s"},
-            "a gain 1 - (1 - sample_gain)^light_samples above 0, and piezo.rc_s of 1e-9..1e3 s");
+    require(is_allowed(loop), {"gyro.light_samples", "perimeter.relock_halves", "piezo.rc_s"},
+            "a gain above 0 of the halves after closing, and piezo.rc_s of 1e-9..1e3 s");
 }
 
 // errors  config::ConfigError where the core's check refuses what was made of the configuration.
@@ -120,13 +119,12 @@ void require_control(const config::Config& config, const core::GyroControlConfig
             refuse(config, {"piezo.half_wave_v", "piezo.half_wave_error", "gyro.reference_temperature_c"},
                    "a presumed half-wave voltage of 1e-3..1e6 V, and a temperature above -1e6 to below 1e6 C");
         case core::GyroControlFault::fringe:
-            refuse(config, {"gyro.readout", "photodiodes.noise", "laser.comparator_threshold"},
+            refuse(config, {"gyro.readout", "photodiodes.noise"},
                    "a phase of less than 1/20 of a turn of noise, and comparators that follow it within 1/8");
         case core::GyroControlFault::schedule:
             refuse(config,
-                   {"switching.interval_s", "switching.interval_min_s", "switching.interval_max_s", "gyro.tick_s",
-                    "switching.switch_error_arcsec", "switching.magnetic_arcsec_s"},
-                   "intervals of 1..2^53 ticks, and presumed errors above 0 up to 1e12");
+                   {"switching.interval_s", "switching.interval_min_s", "switching.interval_max_s", "gyro.tick_s"},
+                   "intervals of 1..2^53 ticks");
         case core::GyroControlFault::mode_switch:
         case core::GyroControlFault::ranges_differ:
             refuse(config,
@@ -187,8 +185,7 @@ core::GyroControlConfig control_config(const config::Config& config) {
         .time_constant = core::Seconds{std::max(config.perimeter.tau_s, 0.5 * tick_s)},
         .error_limit = core::Wavelengths{config.perimeter.limit_lambda},
         .slew_v_s = config.piezo.slew_v_s,
-        .stage_time_constant = core::Seconds{config.piezo.rc_s},
-        .set_points = config.perimeter.set_points};
+        .stage_time_constant = core::Seconds{config.piezo.rc_s}};
     add_relock(config, made.loop);
     made.half_wave.range = range;
     made.half_wave.half_wave = presumed;

@@ -71,8 +71,7 @@ twin::TwinConfig twin_config(const config::Config& config) {
             .photodiodes = config.photodiodes,
             .laser = config.laser,
             .counter_max_hz = counter_max_hz(config.gyro),
-            .faults = faults_of(config),
-            .vibration_hz = config.faults.vibration_hz};
+            .faults = faults_of(config)};
 }
 
 core::DiscriminatorCurve discriminator_curve(const config::Config& config, double slope_per_lambda) {
@@ -95,7 +94,6 @@ core::DiscriminatorCurve discriminator_curve(const config::Config& config, doubl
 config::Config without_switching(config::Config config) {
     // The longest interval that the schema allows, and no run is longer.
     config.switching.schedule = config::Schedule::fixed;
-    config.switching.last_segment = config::LastSegment::any;
     config.switching.interval_s = 1e9;
     return config;
 }

@@ -16,16 +16,16 @@ namespace {
 
 using namespace report;
 
-report::Table curve_table(const View& v) {
-    const auto& curve = v.axis.curves.front();
+report::Table curve_table(const View& v, const deviations::DeviationCurve& curve) {
     const bool is_angle = curve.kind == deviations::DeviationKind::tdev;
     const auto shown = [&](double deviation) { return is_angle ? deviation : v.shown(deviation); };
-    report::Table t{.caption = fmt::format("{} in {}, n differences each; edf: equivalent degrees of freedom.",
-                                           deviations::name_of(curve.kind), is_angle ? "arcsec" : v.unit()),
-                    .header = {"tau, s", "n", "deviation", "low", "high", "edf", "spectrum of the rate"}};
+    report::Table t{.caption = fmt::format(
+                        "{}, {}; intervals of {:g} %, n differences each; edf: equivalent degrees of "
+                        "freedom; last the spectrum of the rate.",
+                        deviations::name_of(curve.kind), is_angle ? "arcsec" : v.unit(), 100.0 * curve.confidence),
+                    .header = {"tau, s", "n", "deviation", "low", "high", "edf", "noise"}};
     if (deviations::is_total(curve.kind)) {
-        t.caption += fmt::format(" Bias of mirroring: {} (total_bias); as computed: with it.",
-                                 deviations::name_of(curve.total_bias));
+        t.caption += " As computed: with the bias of mirroring, which is taken out of the deviation.";
         t.header.emplace_back("as computed");
     }
     const std::size_t step = std::max<std::size_t>(1, curve.points.size() / 30);
@@ -45,6 +45,9 @@ report::Table term_table(const View& v) {
                         "freedom, probability {:.2g}; each variance allowed an error of {:g} % beside chance.",
                         v.axis.fit->chi2, v.axis.fit->dof, v.axis.fit->probability, 100.0 * v.axis.fit->model_error),
                     .header = {"term", "value, continuous", "read at tau, s"}};
+    if (v.axis.fit->from_tau_s > 1.5 / v.axis.rate_hz)
+        t.caption += fmt::format(" Averaging times below {:.4g} s left free: the sensor's filter or rounding rules them.",
+                                 v.axis.fit->from_tau_s);
     for (const noise::FittedTerm& term : v.axis.fit->fitted)
         t.rows.push_back({std::string{noise::name_of(term.kind)}, value_text(term),
                           term.found && std::isfinite(term.read_at_s) ? short_number(term.read_at_s) : "-"});
@@ -103,7 +106,7 @@ report::Table mode_table(const View& v) {
 
 std::string summary(const View& v) {
     return fmt::format(
-        "{}, {:g} Hz: {} samples over {} s, {} of them known, {} gaps. Mean rate {} {}.", v.axis.holds, v.axis.rate_hz,
+        "{}, {:g} Hz: {} samples, {} s, {} known, {} gaps; mean rate {} {}.", v.axis.holds, v.axis.rate_hz,
         v.axis.n_samples, short_number(static_cast<double>(v.axis.n_samples) / v.axis.rate_hz), v.axis.n_known,
         v.axis.n_gaps, with_error(v.shown(v.axis.mean_arcsec_s), v.shown(v.axis.mean_sigma_arcsec_s)), v.unit());
 }
@@ -151,11 +154,11 @@ report::Section number_section(const View& v) {
     report::Section s{.heading = "Numbers of " + v.axis.name};
     if (v.axis.fit) s.tables.push_back(discrete_table(v));
     if (!v.axis.readouts.empty()) s.tables.push_back(readout_table(v));
-    s.tables.push_back(curve_table(v));
+    for (const deviations::DeviationCurve& curve : v.axis.curves) s.tables.push_back(curve_table(v, curve));
     return s;
 }
 
-report::Section earth_section(const config::Analysis& config, const AnalysisResult& result) {
+report::Section earth_section(const AnalysisResult& result) {
     report::Section s{.heading = "Mean rates"};
     report::Table t{.caption = "Mean rates, with what the fitted noise lets them differ by.",
                     .header = {"axis", "mean, deg/h"}};
@@ -165,12 +168,11 @@ report::Section earth_section(const config::Analysis& config, const AnalysisResu
         t.rows.push_back({fmt::format("norm of {} axes; the Earth: {:.3f}", line.n_axes, earth_rate_arcsec_s),
                           with_error(line.norm_arcsec_s, line.sigma_arcsec_s)});
     s.tables.push_back(std::move(t));
-    if (config.latitude_deg)
-        s.paragraphs.push_back(
-            fmt::format("At latitude {:g} deg the Earth turns {:.3f} deg/h about the vertical, and up to "
-                        "{:.3f} deg/h about a horizontal axis.",
-                        *config.latitude_deg, earth_vertical_arcsec_s(*config.latitude_deg),
-                        earth_horizontal_arcsec_s(*config.latitude_deg)));
+    if (!result.presumed) return s;
+    const noise::DataSheet sheet = noise::data_sheet(result.presumed->terms);
+    s.paragraphs.push_back(fmt::format("{} presumes {:.4g} deg/sqrt(h) and {:.4g} deg/h/sqrt(h).",
+                                       result.presumed->name, sheet.angle_random_walk_deg_sqrt_h,
+                                       sheet.rate_random_walk_deg_h_sqrt_h));
     return s;
 }
 
@@ -225,7 +227,7 @@ report::Page analysis_page(const config::Analysis& config, const AnalysisResult&
         page.sections.push_back(table_section(config, result.tables[k], k));
         names += (names.empty() ? "" : "; ") + result.tables[k].name;
     }
-    if (!result.axes.empty()) page.sections.push_back(earth_section(config, result));
+    if (!result.axes.empty()) page.sections.push_back(earth_section(result));
     config::Config asked;
     asked.analysis = config;
     page.sections.push_back(how_made("analyze FILE...", asked, names));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -43,22 +42,6 @@ void count_known(const AxisRecord& record, AxisResult& axis) {
         }
     }
     close(record.rates_arcsec_s.size());
-}
-
-// The greatest common divisor of the lengths of all stretches of one value: chance gives 1, a slower sensor than the
-// log the samples that each of its values stands. Few stretches tell nothing.
-std::int64_t stands_of(std::span<const double> rates) {
-    constexpr int min_stretches = 64;  // where one in two is odd by chance, none of so many is once in 2^64
-    std::int64_t common = 0;
-    int n = 0;
-    std::size_t from = rates.size();  // where the last stretch began, both its ends seen
-    for (std::size_t k = 1; k < rates.size(); ++k) {
-        if (rates[k] == rates[k - 1]) continue;
-        const bool is_whole = from < k && std::isfinite(rates[k]) && std::isfinite(rates[k - 1]);
-        if (is_whole) common = std::gcd(common, static_cast<std::int64_t>(k - from)), ++n;
-        from = std::isfinite(rates[k]) && std::isfinite(rates[k - 1]) ? k : rates.size();
-    }
-    return n < min_stretches ? 1 : common;
 }
 
 // Means over equal stretches; one of which half is missing is a gap.
@@ -171,8 +154,7 @@ void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     try {
         if (axis.modes) take_curve_left(task, record, axis);
         const double mean = mean_of(rates);
-        axis.fit = noise::fit_noise_in_place(
-            rates, record.rate_hz, {.least_known_ratio = task.config.least_known_ratio, .threads = task.threads});
+        axis.fit = noise::fit_noise_in_place(rates, record.rate_hz, {.threads = task.threads});
         if (!axis.fit->terms.sines.empty()) axis.mean_arcsec_s += mean_of(rates) - mean;
         if (task.with_page && (axis.modes || !axis.fit->terms.sines.empty()))
             axis.spectrum_left = noise::welch_spectrum(rates, record.rate_hz, piece_of(rates.size()));
@@ -203,7 +185,6 @@ AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
     axis.is_error = record.is_error;
     axis.n_samples = std::ssize(record.rates_arcsec_s);
     count_known(record, axis);
-    axis.stands = stands_of(record.rates_arcsec_s);
     if (task.with_page) axis.time_bins = time_bins_of(record);
     // The modes first: they are what the bridged rates are needed for.
     take_modes(task, record, axis);

@@ -25,8 +25,6 @@ std::vector<std::int64_t> spaced_factors(const config::Analysis& c, std::int64_t
     switch (c.taus) {
         case config::Taus::decade:
             return deviations::decade_factors(largest);
-        case config::Taus::log:
-            return deviations::log_factors(static_cast<int>(c.taus_per_decade), largest);
         case config::Taus::all:
             return deviations::all_factors(largest);
         case config::Taus::octave:
@@ -70,10 +68,7 @@ bool is_allan(DeviationKind kind) {
 }
 
 deviations::DeviationOptions options_of(const AnalysisTask& task) {
-    return {.confidence = task.config.confidence,
-            .least_known_ratio = task.config.least_known_ratio,
-            .total_bias = static_cast<deviations::TotalBias>(task.config.total_bias),
-            .threads = task.threads};
+    return {.confidence = task.config.confidence, .threads = task.threads};
 }
 
 deviations::DeviationCurve allan_curve(const AnalysisTask& task, const AngleRecord& angle,

@@ -89,13 +89,13 @@ Lab read_all(const CalibrationTask& task) {
                 fmt::format("{}: the shifts of the bias edges are left in its counts, as noise", path));
         lab.configs.push_back(config_of(task.said, header.settings, path));
         lab.recorded.push_back(recorded::as_recorded(lab.configs.back(), header.settings, path));
-        const auto tell = [&](double of_log) {
+        const auto notify = [&](double of_log) {
             if (task.on_progress) task.on_progress((static_cast<double>(k) + of_log) / n_logs);
         };
         const config::Gyro& gyro = lab.configs.back().gyro;
         lab.signs.emplace_back(
             core::CompensationConstants{.tick = core::Seconds{gyro.tick_s}, .bias = core::Hertz{gyro.bias_hz}});
-        lab.logs.push_back(read(raw, path, gyro.tick_s, lab.signs.back(), tell));
+        lab.logs.push_back(read(raw, path, gyro.tick_s, lab.signs.back(), notify));
         if (!raw.line_is_ended())
             lab.warnings.push_back(fmt::format("{}: the last line has no end; the file may have been cut off", path));
     }

@@ -109,7 +109,6 @@ config::Config quiet(config::Config config, int ticks) {
     config.piezo.adc_noise_v = 0.0;
     config.faults = {};
     config.switching.schedule = config::Schedule::fixed;
-    config.switching.last_segment = config::LastSegment::any;
     config.switching.interval_optimal = false;
     config.switching.first_segment = config::FirstSegment::full;
     config.switching.interval_s =

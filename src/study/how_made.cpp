@@ -31,7 +31,10 @@ report::Section how_made(std::string_view command, const config::Config& config,
             command);
         text += inputs.empty() ? "." : ", with the same files.";
     }
-    return {.heading = "How this page was made", .paragraphs = {std::move(text)}, .code = std::move(own)};
+    return {.heading = "How this page was made",
+            .paragraphs = {std::move(text)},
+            .code = std::move(own),
+            .is_of_page = true};
 }
 
 }  // namespace zlg::study

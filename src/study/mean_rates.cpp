@@ -30,14 +30,6 @@ double walk_limit(const noise::NoiseFit& fit) {
 
 }  // namespace
 
-double earth_vertical_arcsec_s(double latitude_deg) {
-    return earth_rate_arcsec_s * std::sin(latitude_deg * std::numbers::pi / 180.0);
-}
-
-double earth_horizontal_arcsec_s(double latitude_deg) {
-    return earth_rate_arcsec_s * std::cos(latitude_deg * std::numbers::pi / 180.0);
-}
-
 std::vector<EarthLine> earth_lines(const std::vector<AxisResult>& axes) {
     std::map<std::string, EarthLine> groups;
     std::map<std::string, double> variance;

@@ -6,61 +6,27 @@
 
 #include <zlg/report/number_text.hpp>
 #include <zlg/study/how_made.hpp>
+#include <zlg/study/what_happened.hpp>
 
 #include "run_view.hpp"
 
 namespace zlg::study {
 namespace {
 
+using report::fixed_number;
 using report::short_number;
 
-std::string joined(const std::vector<const VariantResult*>& group, std::string VariantResult::*member) {
-    std::string text;
-    for (const VariantResult* v : group)
-        if (text.find(v->*member) == std::string::npos) text += (text.empty() ? "" : "; ") + v->*member;
-    return text;
-}
-
-report::Table variant_table(const RunResult& result) {
+report::Table meaning_table(const RunResult& result) {
     report::Table table{
-        .caption =
-            "The error of a switch is final minus true angle from the first blind tick to the end of the re-lock; its "
-            "mean is taken with the sign of the false drift, which alternates from switch to switch. Drift is the "
-            "least-squares slope of the angle error. The constant is the non-magnetic drift, which no switching takes "
-            "out and a bias calibration does.",
-        .header = {"variant", "what it is", "error per switch, rms, arcsec", "mean, arcsec", "largest, arcsec",
-                   "drift without the constant, deg/h", "angle error at the end without it, arcsec",
-                   "drift with it, deg/h"}};
-    for (const auto& group : equal_variants(result)) {
-        const VariantResult& v = *group.front();
-        const auto error = [&v](double SwitchStatistics::*member) {
-            return v.switch_error ? short_number((*v.switch_error).*member) : "-";
-        };
-        const bool is_all = group.size() > 3;
-        table.rows.push_back(report::row(
-            is_all ? group.front()->name + " to " + group.back()->name : joined(group, &VariantResult::name),
-            is_all ? fmt::format("{} variants, all equal here", group.size()) : joined(group, &VariantResult::meaning),
-            error(&SwitchStatistics::rms_arcsec), error(&SwitchStatistics::mean_arcsec),
-            error(&SwitchStatistics::max_arcsec), v.drift_without_nonmagnetic_arcsec_s,
-            v.angle_error_without_nonmagnetic_arcsec, v.drift_arcsec_s));
-    }
+        .caption = "What each row is. All compensate the records of one run; one_mode is a run of its own.",
+        .header = {"compensation", "what it is"}};
+    for (const VariantResult& v : result.variants) table.rows.push_back({v.name, v.meaning});
     return table;
 }
 
-std::vector<std::string> result_text(const RunResult& result) {
+std::vector<std::string> result_text(const config::Config& config, const RunResult& result) {
     std::vector<std::string> text = result.warnings;
-    if (result.tally.failed + result.tally.withheld > 0) text.push_back(rig::sentence(result.tally));
-    if (const std::int64_t n = result.variants.back().unrepaired; n > 0)
-        text.push_back(
-            fmt::format("{} of {} switches have a gap that no bridge repairs, for it is too long or has no good ticks "
-                        "beside it: what was "
-                        "turned in it is missing from the angle, and their errors are not in the table.",
-                        n, result.switches.size()));
-    text.emplace_back(
-        "Every row compensates the records of one and the same run of the digital twin; only one_mode is a run of its "
-        "own.");
-    if (equal_variants(result).size() < result.variants.size() + 1)
-        text.back() += " Variants that give the same to the last bit share a row.";
+    for (std::string& sentence : what_happened(config, result)) text.push_back(sentence + ".");
     return text;
 }
 
@@ -133,13 +99,53 @@ std::string lead(const config::Config& config, const RunResult& result) {
 
 }  // namespace
 
+report::Table variant_table(const config::Config& config, const RunResult& result) {
+    report::Table table{
+        .caption = fmt::format(
+            "The error of a switch is final minus true angle from the first blind tick to the end of the re-lock; its "
+            "mean is taken with the sign of the false drift, which alternates from switch to switch. Drift is the "
+            "least-squares slope of the angle error. The constant is the non-magnetic drift, {:g} deg/h, which no "
+            "switching takes out and a bias calibration does. Compensations of equal figures share a row.",
+            config.drift.nonmagnetic_arcsec_s),
+        .header = {"compensation", "error of a switch, rms, arcsec", "mean, arcsec", "largest, arcsec",
+                   "drift without the constant, deg/h", "error at the end without it, arcsec", "drift with it, deg/h",
+                   "error at the end with it, arcsec"}};
+    const RandomWalkShare walk = random_walk_share(config, result);
+    if (walk.drift_arcsec_s > 0.0)
+        table.caption += fmt::format(" The random walk alone makes +-{:.2g} deg/h and +-{:.2g} arcsec at the end.",
+                                     walk.drift_arcsec_s, walk.angle_arcsec);
+    const auto add = [&table](const VariantResult& v) {
+        const auto error = [&v](double SwitchStatistics::*member) {
+            return v.switch_error ? fixed_number((*v.switch_error).*member, 2) : "-";
+        };
+        std::vector<std::string> row{v.name,
+                                     error(&SwitchStatistics::rms_arcsec),
+                                     error(&SwitchStatistics::mean_arcsec),
+                                     error(&SwitchStatistics::max_arcsec),
+                                     fixed_number(v.drift_without_nonmagnetic_arcsec_s, 4),
+                                     fixed_number(v.angle_error_without_nonmagnetic_arcsec, 1),
+                                     fixed_number(v.drift_arcsec_s, 4),
+                                     fixed_number(v.angle_error_arcsec, 1)};
+        const auto same = std::ranges::find_if(table.rows, [&row](const auto& other) {
+            return std::equal(other.begin() + 1, other.end(), row.begin() + 1);
+        });
+        if (same == table.rows.end())
+            table.rows.push_back(std::move(row));
+        else
+            same->front() += ", " + v.name;
+    };
+    for (const VariantResult& v : result.variants) add(v);
+    if (!result.magnetic_estimate.name.empty()) add(result.magnetic_estimate);
+    return table;
+}
+
 report::Page run_page(const config::Config& config, const RunResult& result) {
     report::Page page{.title = "Run of a Zeeman laser gyro in the quasi-four-frequency regime",
                       .verdict = run_verdict(config, result),
                       .lead = lead(config, result)};
     page.sections.push_back({.heading = "Result",
-                             .paragraphs = result_text(result),
-                             .tables = {variant_table(result)},
+                             .paragraphs = result_text(config, result),
+                             .tables = {variant_table(config, result), meaning_table(result)},
                              .figures = {sawtooth_figure(config, result)}});
     auto& figures = page.sections.back().figures;
     if (!result.switches.empty()) figures.push_back(sum_figure(result));

@@ -75,22 +75,4 @@ std::string run_verdict(const config::Config& config, const RunResult& result) {
     return text + ".";
 }
 
-std::vector<std::vector<const VariantResult*>> equal_variants(const RunResult& result) {
-    const auto same = [](const VariantResult& a, const VariantResult& b) {
-        return a.drift_arcsec_s == b.drift_arcsec_s && a.angle_error_arcsec == b.angle_error_arcsec &&
-               std::ranges::equal(a.switches, b.switches, {}, &SwitchError::error_arcsec, &SwitchError::error_arcsec);
-    };
-    std::vector<std::vector<const VariantResult*>> groups;
-    const auto add = [&](const VariantResult& v) {
-        const auto group = std::ranges::find_if(groups, [&](const auto& g) { return same(*g.front(), v); });
-        if (group == groups.end())
-            groups.push_back({&v});
-        else
-            group->push_back(&v);
-    };
-    for (const VariantResult& v : result.variants) add(v);
-    add(result.magnetic_estimate);
-    return groups;
-}
-
 }  // namespace zlg::study

@@ -33,8 +33,4 @@ namespace zlg::study {
 // "laser_off from 20 s to 25 s" and so on; empty where the configuration has no fault.
 [[nodiscard]] std::vector<std::string> faults_of(const config::Config& config);
 
-// Variants, the estimate of the magnetic drift among them, of the same drift, error and switches, in the order of the
-// run. They are equal where there was nothing in which they differ.
-[[nodiscard]] std::vector<std::vector<const VariantResult*>> equal_variants(const RunResult& result);
-
 }  // namespace zlg::study

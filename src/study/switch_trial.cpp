@@ -29,7 +29,6 @@ config::Config on_trial(config::Config config) {
     config.switching.interval_optimal = false;
     config.switching.schedule = config::Schedule::fixed;
     config.switching.first_segment = config::FirstSegment::full;
-    config.switching.last_segment = config::LastSegment::any;
     config.compensation.magnetic = core::MagneticMethod::none;
     config.run.duration_s.reset();
     return config;

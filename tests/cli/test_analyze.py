@@ -71,10 +71,9 @@ class Analyze(CliTest):
         rows = "".join(f"{a},{b},{c}\n" for a, b, c in zip(white(500, 1.0, 3.0, 1), white(500, 1.0, 4.0, 2), white(500, 1.0, 14.0, 3)))
         path = self.write("unit.csv", "# three axes\n" + rows)
         other = self.write("other.txt", lines(white(500, 1.0)))
-        result = self.json_of(path, *TEXT, "--set", "analysis.column=[1, 2, 3]", "--set", "analysis.latitude_deg=30")
+        result = self.json_of(path, *TEXT, "--set", "analysis.column=[1, 2, 3]")
         self.assertEqual(len(result["axes"]), 3)
         self.assertAlmostEqual(result["earth"][0]["norm_arcsec_s"], math.sqrt(9 + 16 + 196), delta=0.3)
-        self.assertAlmostEqual(result["latitude"]["vertical_arcsec_s"], 15.041067 / 2.0, places=5)
         self.assertEqual(len(self.json_of(other, path, *TEXT)["axes"]), 2)
 
     def test_deviations_taus_and_units_are_chosen(self):
@@ -86,11 +85,10 @@ class Analyze(CliTest):
         self.assertIn("tdev, arcsec; intervals of 95 %", result.stdout)
         axis = self.json_of(path, *TEXT, "--set", "analysis.taus_s=[0.1, 1, 10]")["axes"][0]
         self.assertEqual([point["tau_s"] for point in axis["deviations"][0]["points"]], [0.1, 1.0, 10.0])
-        for bias in ("removed", "published", "as_computed"):
-            said = ["--set", "analysis.deviations=mtotdev", "--set", "analysis.taus_s=[1]", "--set", f"analysis.total_bias={bias}"]
-            (curve,) = self.json_of(path, *TEXT, *said)["axes"][0]["deviations"]
-            self.assertEqual(curve["total_bias"], bias)
-            self.assertEqual(curve["points"][0]["deviation"] == curve["points"][0]["as_computed"], bias == "as_computed")
+        said = ["--set", "analysis.deviations=mtotdev", "--set", "analysis.taus_s=[1]"]
+        (curve,) = self.json_of(path, *TEXT, *said)["axes"][0]["deviations"]
+        self.assertEqual(curve["total_bias"], "removed")
+        self.assertNotEqual(curve["points"][0]["deviation"], curve["points"][0]["as_computed"])
 
     def test_a_run_gives_its_drifts_back(self):
         out = self.folder / "run"
@@ -195,9 +193,6 @@ class Analyze(CliTest):
         with_earth = self.json_of(path, *said, "--set", "analysis.table_earth_arcsec_s=7")["rate_tables"][0]
         self.assertAlmostEqual(with_earth["bias_arcsec_s"]["value"], table["bias_arcsec_s"]["value"] - 7.0, places=6)
         self.assertIn("0 stages", self.refusal(3, path, *said, "--set", "analysis.table_settling_s=1e18"))
-        # -1, 0 and 1 are then one rate.
-        wide = self.json_of(path, *said, "--set", "analysis.table_same_rate_ratio=0.25")["rate_tables"][0]
-        self.assertEqual(len(wide["stages"]), 5)
 
     def test_what_tells_nothing_is_refused_in_one_line(self):
         for name, values in (("one", [1.0]), ("constant", [5.0] * 100), ("zero", [0.0] * 100), ("unknown", [math.nan] * 100)):

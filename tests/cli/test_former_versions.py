@@ -12,7 +12,11 @@ USAGE = 2
 FIXTURES = Path(__file__).parent / "format_2"
 # In every log of that version, for it wrote all keys.
 GONE = ["gyro.coil_current", "switching.after_step", "compensation.prior", "compensation.prior_band_hz", "compensation.prior_rate_arcsec_s",
-        "compensation.prior_line_hz", "compensation.prior_line_arcsec_s"]
+        "compensation.prior_line_hz", "compensation.prior_line_arcsec_s", "laser.scatter_phase_deg", "laser.comparator_threshold",
+        "perimeter.sample_gain", "perimeter.settled_tau_s", "perimeter.set_points", "piezo.mirror_damping", "piezo.dac_bits",
+        "piezo.adc_bits", "piezo.adc_noise_v", "photodiodes.skew_s", "photodiodes.jitter_s", "switching.last_segment",
+        "switching.switch_error_arcsec", "switching.magnetic_arcsec_s", "faults.vibration_hz", "analysis.taus_per_decade",
+        "analysis.least_known_ratio", "analysis.total_bias", "analysis.angles", "analysis.table_same_rate_ratio"]
 # Of the logs whose gyro had what is gone: coil_current = "record", after_step = "switch", prior = "lines", and these.
 VALUES = ['switching.schedule = "growing"', 'compensation.bridge = "optimal"']
 

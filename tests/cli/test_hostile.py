@@ -308,45 +308,6 @@ class Cost(Hostile):
             self.refuse_quickly(3, *arguments, says=["disk", "run.duration_s", "B"])
         self.assertEqual(os.listdir(self.folder), [])
 
-    def test_what_lasts_long_says_so(self):
-        child = subprocess.Popen([str(ZLG), "simulate", "--duration", "200000", "--out", str(self.folder / "a.h5")],
-                                 stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
-        line = child.stderr.readline()
-        child.kill()
-        child.communicate()
-        self.assertRegex(line, r"zlg: warning: this takes about .* and .* of disk\n")
-
-    def first_line(self, *arguments, limit_s=60):
-        child = subprocess.Popen([str(ZLG), *map(str, arguments)], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
-        timer = threading.Timer(limit_s, child.kill)
-        timer.start()
-        line = child.stderr.readline()
-        timer.cancel()
-        child.kill()
-        child.communicate()
-        return line
-
-    def test_a_paper_of_a_long_run_says_so(self):
-        line = self.first_line("paper", "--duration", 1e9, "--out", self.folder / "p")
-        self.assertRegex(line, r"zlg: warning: this takes about .*\n")
-        self.assertNotIn("disk", line)
-
-    def test_a_run_of_a_motion_file_says_so(self):
-        rates = self.write("rates.txt", "1.0\n" * 60000)
-        line = self.first_line("run", "--set", "motion.kind=file", "--set", f"motion.path={rates}", "--set", "motion.rate_hz=0.3",
-                               "--out", self.folder / "d")
-        self.assertRegex(line, r"zlg: warning: this takes about .* and .* of disk\n")
-
-    def test_work_on_a_log_that_no_disk_holds(self):
-        rows = "".join(f"{half},{1 - half % 2 * 2},1,{100 + half % 7},1\n" for half in range(400_000))
-        log = self.write("log.csv", csv_text(quiet_log(1), REQUIRED, FACTS).split("0,1,1,")[0] + rows)
-        # Its end is far away, and takes no disk itself.
-        os.truncate(log, 1 << 43)
-        for verb in ("process", "convert"):
-            for out in ("a.csv", "a.h5"):
-                self.refuse_quickly(3, verb, log, "--out", self.folder / out, says=["of disk in all", out, "TB", "GB are free"])
-        self.assertEqual(os.listdir(self.folder), ["log.csv"])
-
     def test_short_work_says_nothing(self):
         result = self.succeed("simulate", "--duration", 1000, "--out", self.folder / "a.h5")
         self.assertEqual(result.stderr, "")

@@ -1,10 +1,10 @@
-"""Man pages and completion that the program makes of its own tables."""
+"""Man pages and completion, made of what the program's help prints."""
 
 import re
 import subprocess
 import unittest
 
-from support import ZLG, folder_until
+from support import ROOT, ZLG, folder_until
 
 
 def run(*command):
@@ -15,8 +15,8 @@ class Manual(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = folder_until(cls.addClassCleanup)
-        run(ZLG, "--manual", cls.folder)
-        cls.pages = {page.stem: page.read_text() for page in (cls.folder / "man1").iterdir()}
+        run(ROOT / "packaging" / "manual", ZLG, cls.folder)
+        cls.pages = {page.stem: page.read_text() for page in cls.folder.iterdir()}
         cls.verbs = sorted(name.removeprefix("zlg-") for name in cls.pages if name != "zlg")
 
     def test_every_option_of_every_verb_is_in_its_page(self):
@@ -28,9 +28,9 @@ class Manual(unittest.TestCase):
 
     def completed(self, *words):
         """What bash offers where the last word is being typed."""
-        source = self.folder / "zlg.bash"
+        source = ROOT / "packaging" / "zlg.bash"
         typed = " ".join(f"'{word}'" for word in words)
-        script = f"compopt() {{ :; }}; . {source}; COMP_WORDS=({typed}); COMP_CWORD={len(words) - 1}; _zlg; echo \"${{COMPREPLY[@]}}\""
+        script = f"PATH={ZLG.parent}:$PATH; compopt() {{ :; }}; . {source}; COMP_WORDS=({typed}); COMP_CWORD={len(words) - 1}; _zlg; echo \"${{COMPREPLY[@]}}\""
         return run("bash", "-c", script).split()
 
     def test_bash_completes_verbs_options_and_keys(self):
@@ -40,6 +40,6 @@ class Manual(unittest.TestCase):
         self.assertEqual(self.completed("zlg", "process", "raw"), [])
 
     def test_no_page_has_a_wrong_request(self):
-        for page in sorted((self.folder / "man1").iterdir()):
+        for page in sorted(self.folder.iterdir()):
             done = subprocess.run(["groff", "-man", "-Tutf8", "-ww", "-z", page], capture_output=True, text=True, check=True)
             self.assertEqual(done.stderr, "", page.name)

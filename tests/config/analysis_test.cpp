@@ -9,7 +9,6 @@ TEST(AnalysisConfig, nothing_is_presumed_of_a_text_file) {
     const Config c;
     EXPECT_FALSE(c.analysis.column_holds);
     EXPECT_FALSE(c.analysis.rate_hz);
-    EXPECT_FALSE(c.analysis.latitude_deg);
 }
 
 TEST(AnalysisConfig, is_set_by_name) {
@@ -19,9 +18,7 @@ TEST(AnalysisConfig, is_set_by_name) {
     apply_set(c, "analysis.column_holds=phase");
     apply_set(c, "analysis.unit=rad/s");
     apply_set(c, "analysis.taus_s=[1, 10]");
-    apply_set(c, "analysis.table_same_rate_ratio=0.01");
     apply_set(c, "analysis.table_earth_arcsec_s=-8.5");
-    EXPECT_EQ(c.analysis.table_same_rate_ratio, 0.01);
     EXPECT_EQ(c.analysis.table_earth_arcsec_s, -8.5);
     EXPECT_EQ(c.analysis.deviations, (std::vector<Deviation>{Deviation::mdev, Deviation::tdev}));
     EXPECT_EQ(c.analysis.column, (std::vector<std::string>{"1", "3"}));
@@ -55,8 +52,7 @@ TEST(AnalysisConfig, other_numbers_have_their_ranges) {
     EXPECT_THROW(apply_set(c, "analysis.confidence=1"), ConfigError);
     EXPECT_THROW(apply_set(c, "analysis.confidence=0.9999999999999999"), ConfigError);
     EXPECT_NO_THROW(apply_set(c, "analysis.confidence=0.999999"));
-    EXPECT_THROW(apply_set(c, "analysis.table_same_rate_ratio=-1"), ConfigError);
-    EXPECT_THROW(apply_set(c, "analysis.latitude_deg=91"), ConfigError);
+    EXPECT_THROW(apply_set(c, "analysis.table_settling_s=-1"), ConfigError);
 }
 
 }  // namespace zlg::config::analysis_test

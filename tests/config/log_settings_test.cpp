@@ -43,7 +43,10 @@ INSTANTIATE_TEST_SUITE_P(
         Former{"compensation.prior_band_hz", "24", "compensation.prior_band_hz", "leave it out"},
         Former{"compensation.prior_rate_arcsec_s", "-1", "compensation.prior_rate_arcsec_s", "leave it out"},
         Former{"compensation.prior_line_hz", "[20, 30]", "compensation.prior_line_hz", "leave it out"},
-        Former{"compensation.prior_line_arcsec_s", "12000", "compensation.prior_line_arcsec_s", "leave it out"}));
+        Former{"compensation.prior_line_arcsec_s", "12000", "compensation.prior_line_arcsec_s", "leave it out"},
+        Former{"analysis.taus", "\"log\"", "analysis.taus = \"log\"", "analysis.taus_s"},
+        Former{"piezo.dac_bits", "12", "piezo.dac_bits", "leave it out"},
+        Former{"switching.last_segment", "\"half\"", "switching.last_segment", "leave it out"}));
 
 TEST_P(FormerKeys, AreSteppedOverInALogAndNamed) {
     const Settings settings{{"gyro.tick_s", "0.01"}, {GetParam().key, GetParam().value}, {"run.seed", "7"}};

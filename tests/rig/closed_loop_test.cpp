@@ -105,17 +105,4 @@ TEST(ClosedLoop, refuses_a_gyro_that_cannot_be) {
     EXPECT_THROW((rig::ClosedLoop{c, rig::motion(c)}), config::ConfigError);
 }
 
-TEST(ClosedLoop, a_half_last_segment_gives_both_modes_the_same_time) {
-    for (const auto schedule : {config::Schedule::fixed, config::Schedule::measured}) {
-        config::Config c = every_second();
-        c.switching.schedule = schedule;
-        c.switching.interval_min_s = 1.0;
-        c.switching.last_segment = config::LastSegment::half;
-        c.run.duration_s = 7.77;
-        int imbalance = 0;
-        for (const rig::LoopHalf& half : advance(c, 2 * 1554)) imbalance += half.record.mode;
-        EXPECT_LE(std::abs(imbalance), 2);
-    }
-}
-
 }  // namespace zlg::closed_loop_test

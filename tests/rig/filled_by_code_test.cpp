@@ -34,8 +34,7 @@ const std::vector<Member> members = {ZLG_MEMBER(gyro.tick_s, nan, 0.0, -1.0, 11.
                                      ZLG_MEMBER(piezo.half_wave_v, nan, 0.0, -40.0),
                                      ZLG_MEMBER(piezo.mirror_hz, nan, 50.0),
                                      ZLG_MEMBER(laser.perimeter_m, nan, infinity, -infinity),
-                                     ZLG_MEMBER(laser.upper_isotope_ratio, nan, infinity, 1.5),
-                                     ZLG_MEMBER(faults.vibration_hz, nan, 0.0)};
+                                     ZLG_MEMBER(laser.upper_isotope_ratio, nan, infinity, 1.5)};
 
 TEST(FilledByCode, ANumberOutOfItsRangeIsRefusedByItsKey) {
     for (const Member& member : members) {

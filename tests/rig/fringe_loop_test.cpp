@@ -51,7 +51,8 @@ TEST(FringeLoop, WhatIsPresumedIsTheNoiseOfThePhotodiodes) {
 
 // In a time t beside the middle of a reversal the phase goes on by f t^2/t_e; the mean of t^4 is 3 jitter^4.
 TEST(FringeLoop, WhatIsPresumedHoldsTheJitter) {
-    config::Config jittered = by_phase({"photodiodes.jitter_s=5e-6"});
+    config::Config jittered = by_phase();
+    jittered.photodiodes.jitter_s = 5e-6;
     const double plateau_hz = 60e3 / (1.0 - 50e-6 / 5e-3);
     const double expected = std::sqrt(3.0) * plateau_hz * 5e-6 * 5e-6 / 50e-6;
     EXPECT_NEAR(rig::fringe_noise_counts(jittered), std::hypot(expected, rig::fringe_noise_counts(by_phase())), 1e-12);
@@ -98,7 +99,8 @@ TEST(FringeLoop, OverATickCountsAndPlacesTurnWithTheGyro) {
 TEST(FringeLoop, ASkewBeyondAMicrosecondIsReported) {
     for (const char* fidelity : {"gyro.fidelity=averaged", "gyro.fidelity=laser"}) {
         for (const bool far : {false, true}) {
-            config::Config c = by_phase({fidelity, far ? "photodiodes.skew_s=2.5e-6" : "photodiodes.skew_s=1e-6"});
+            config::Config c = by_phase({fidelity});
+            c.photodiodes.skew_s = far ? 2.5e-6 : 1e-6;
             const auto halves = advance(c, 16'000);
             EXPECT_EQ((halves.back().control.health & core::health_fringe_skewed) != 0, far) << fidelity;
         }

@@ -32,8 +32,7 @@ TEST(Wiring, every_section_of_the_gyro_reaches_the_twin) {
     c.perimeter.loop = config::Loop::digital;
     c.piezo.rc_s = 0.002;
     c.laser.quadrature = config::Quadrature::x4;
-    c.faults = {
-        .kind = {twin::FaultKind::shock}, .at_s = {1.0}, .duration_s = {0.01}, .size = {0.1}, .vibration_hz = 99.0};
+    c.faults = {.kind = {twin::FaultKind::shock}, .at_s = {1.0}, .duration_s = {0.01}, .size = {0.1}};
     const twin::TwinConfig made = rig::twin_config(c);
     EXPECT_EQ(made.seed, 7u);
     EXPECT_EQ(made.gyro.fidelity, twin::Fidelity::laser);
@@ -42,7 +41,6 @@ TEST(Wiring, every_section_of_the_gyro_reaches_the_twin) {
     EXPECT_EQ(made.piezo.rc_s, 0.002);
     EXPECT_EQ(made.laser.quadrature, twin::Quadrature::x4);
     EXPECT_EQ(made.faults.size(), 1u);
-    EXPECT_EQ(made.vibration_hz, 99.0);
 }
 
 TEST(Wiring, control_presumes_the_half_wave_voltage_with_its_error) {
@@ -68,20 +66,16 @@ TEST(Wiring, the_interval_is_counted_in_whole_ticks) {
     EXPECT_EQ(first_tick(schedule), 700);
 }
 
-TEST(Wiring, a_schedule_is_told_its_limits_and_what_is_presumed) {
+TEST(Wiring, a_schedule_is_told_its_limits) {
     config::Config c;
     c.switching.schedule = config::Schedule::measured;
     c.switching.interval_min_s = 12.0;
     c.switching.interval_max_s = 345.0;
-    c.switching.switch_error_arcsec = 1.5;
-    c.switching.magnetic_arcsec_s = 0.9;
     const auto schedule = rig::control_config(c).schedule;
     EXPECT_EQ(schedule.kind, core::ScheduleKind::measured);
     EXPECT_EQ(schedule.min_ticks, 2400);
     EXPECT_EQ(schedule.max_ticks, 69000);
     EXPECT_EQ(schedule.tick_s, 0.005);
-    EXPECT_EQ(schedule.presumed.switch_error_arcsec, 1.5);
-    EXPECT_EQ(schedule.presumed.magnetic_arcsec_s, 0.9);
     EXPECT_EQ(rig::control_config(rig::without_switching(c)).schedule.kind, core::ScheduleKind::fixed);
 }
 

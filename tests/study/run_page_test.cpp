@@ -25,8 +25,11 @@ TEST(RunPage, shows_the_sawtooth_one_switch_and_the_errors_of_all) {
                            "switch-errors", "errors-in-time"})
         EXPECT_NE(figure(page, id), nullptr) << id;
     const auto& variants = page.sections.front().tables.front().rows;
-    EXPECT_EQ(variants.front()[1], "the same gyro, never switched");
-    EXPECT_EQ(variants.back()[1], "as the configuration says; as configured, with the magnetic drift estimated");
+    EXPECT_EQ(variants.front()[0], "one_mode");
+    EXPECT_EQ(variants.front()[1], "-");
+    const auto& meanings = page.sections.front().tables.at(1).rows;
+    EXPECT_EQ(meanings.front()[1], "the same gyro, never switched");
+    EXPECT_EQ(meanings.back()[1], "as the configuration says");
     EXPECT_EQ(page.verdict.find("6 switches; a switch costs "), 0u) << page.verdict;
     EXPECT_NE(page.verdict.find(" without correction."), std::string::npos) << page.verdict;
 }
@@ -46,7 +49,8 @@ TEST(RunPage, of_a_run_without_a_switch_says_no_more_than_there_is) {
     EXPECT_EQ(page.verdict.find("No switch in this run of 2 s, for the interval is 90 s"), 0u) << page.verdict;
     const auto& rows = page.sections.front().tables.front().rows;
     ASSERT_EQ(rows.size(), 1u) << "with nothing to correct all are equal, the gyro that is never switched among them";
-    EXPECT_EQ(rows[0][1], "10 variants, all equal here");
+    EXPECT_EQ(rows[0][0].find("one_mode, switching, "), 0u) << rows[0][0];
+    EXPECT_TRUE(rows[0][0].ends_with("configured, magnetic_estimate")) << rows[0][0];
     EXPECT_EQ(figure(page, "angle-error")->caption.find("sawtooth"), std::string::npos);
     EXPECT_EQ(figure(page, "sum-of-errors"), nullptr);
 }

@@ -85,7 +85,7 @@ Accuracy measure_accuracy(const AccuracyTask& task) {
     accuracy.manoeuvres = measure_manoeuvres(gaps, task.quick, task.seed, task.threads);
     accuracy.changes = measure_changes(gaps, task.quick, task.seed, task.threads);
     accuracy.gap_lengths = measure_gap_lengths(task);
-    accuracy.criteria = judge(accuracy);
+    accuracy.criteria = criteria_of(accuracy);
     return accuracy;
 }
 

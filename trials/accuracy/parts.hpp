@@ -82,7 +82,7 @@ inline constexpr const char* readouts[] = {"x1", "x4", "phase"};
 // The recordings again, with gaps of 1 to 10 ticks.
 [[nodiscard]] std::vector<GapLengthFigures> measure_gap_lengths(const AccuracyTask& task);
 
-[[nodiscard]] std::vector<Criterion> judge(const Accuracy& accuracy);
+[[nodiscard]] std::vector<Criterion> criteria_of(const Accuracy& accuracy);
 
 // The part of them that concerns first manoeuvres.
 void add_manoeuvre_criteria(const Accuracy& accuracy, std::vector<Criterion>& out);

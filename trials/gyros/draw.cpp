@@ -41,18 +41,10 @@ constexpr Range of_any_gyro[] = {
     {"drift.nonmagnetic_arcsec_s", Law::either_sign, 0.01, 0.5},
     {"perimeter.limit_lambda", Law::even, 0.05, 0.15},
     {"perimeter.expansion_lambda_per_c", Law::even, 0.005, 0.04},  // of 16 cm: 0.2e-7 to 1.6e-7 per degree
-    {"perimeter.sample_gain", Law::even, 0.05, 0.2},
-    {"perimeter.settled_tau_s", Law::logarithmic, 0.01, 0.05},
-    {"perimeter.set_points", Law::whole, 4, 16},
     {"piezo.half_wave_v", Law::even, 20, 80},
     {"piezo.half_wave_temperature_coefficient_per_c", Law::even, -0.001, 0.005},  // ceramics grow stronger when warm
     {"piezo.half_wave_error", Law::even, -0.05, 0.05},                            // as the workshop knows it
     {"piezo.rc_s", Law::logarithmic, 2e-4, 1.5e-3},
-    {"piezo.dac_bits", Law::whole, 12, 16},
-    {"piezo.adc_bits", Law::whole, 12, 16},
-    {"piezo.adc_noise_v", Law::logarithmic, 0.005, 0.05},
-    {"switching.switch_error_arcsec", Law::logarithmic, 0.5, 10},
-    {"switching.magnetic_arcsec_s", Law::logarithmic, 0.1, 10},
 };
 
 // Two gyros of three have what an ideal piezo has not.
@@ -60,7 +52,6 @@ constexpr Range of_a_real_piezo[] = {
     {"piezo.hysteresis", Law::even, 0.08, 0.18},  // usual; docs/physics.md, as the next two
     {"piezo.creep_per_decade", Law::even, 0.01, 0.03},
     {"piezo.mirror_hz", Law::logarithmic, 3e3, 15e3},
-    {"piezo.mirror_damping", Law::logarithmic, 0.02, 0.2},
 };
 
 // What a laser makes of itself, the averaged gyro is given.
@@ -83,19 +74,12 @@ constexpr Range of_laser[] = {
     {"laser.bias_field_g", Law::even, 10, 18},  // from about 20 G on the middle between the modes runs one way
     {"laser.lock_in_left_hz", Law::logarithmic, 50, 500},
     {"laser.lock_in_right_hz", Law::logarithmic, 50, 500},
-    {"laser.scatter_phase_deg", Law::even, -60, 60},
-    {"laser.comparator_threshold", Law::even, 0.02, 0.2},
 };
 
 constexpr Range of_photodiodes[] = {
-    {"photodiodes.offset_cosine", Law::even, -0.05, 0.05},
-    {"photodiodes.offset_sine", Law::even, -0.05, 0.05},
-    {"photodiodes.amplitude_error", Law::even, -0.05, 0.05},
-    {"photodiodes.angle_error_deg", Law::even, -5, 5},
-    {"photodiodes.noise", Law::logarithmic, 0.003, 0.02},
-    {"photodiodes.adc_bits", Law::whole, 10, 14},
-    {"photodiodes.skew_s", Law::even, -2e-7, 2e-7},  // of one converter that latches both
-    {"photodiodes.jitter_s", Law::even, 0, 5e-8},
+    {"photodiodes.offset_cosine", Law::even, -0.05, 0.05},   {"photodiodes.offset_sine", Law::even, -0.05, 0.05},
+    {"photodiodes.amplitude_error", Law::even, -0.05, 0.05}, {"photodiodes.angle_error_deg", Law::even, -5, 5},
+    {"photodiodes.noise", Law::logarithmic, 0.003, 0.02},    {"photodiodes.adc_bits", Law::whole, 10, 14},
 };
 
 // Two photodiodes of one batch or of two, their dark light, and a tube that fades within hours.
@@ -182,7 +166,6 @@ private:
         set("gyro.first_bias_sign", draws_.of("gyro.first_bias_sign").sign());
         set_one_of("gyro.readout", std::array{"count", "count", "phase"});
         if (c_.gyro.readout == config::Readout::phase) set(of_photodiodes);
-        if (is_one_in(4, "counter is slow")) set_log("gyro.counter_max_hz", 2e6, 1e7);  // of counters that one can buy
         const bool is_x4 = is_one_in(3, "counter of all edges");
         if (is_laser_) {
             set(of_laser);
@@ -289,7 +272,6 @@ private:
         set_log("switching.interval_s", least_s, most_s);
         if (is_one_in(12, "optimal interval")) set("switching.interval_s", std::string{"optimal"});
         set_one_of("switching.first_segment", std::array{"full", "half"});
-        set_one_of("switching.last_segment", std::array{"any", "half"});
         set_one_of("switching.schedule", std::array{"fixed", "measured"});
         set_even("switching.interval_min_s", least_s, most_s);
         set_even("switching.interval_max_s", most_s, 2.0 * most_s);

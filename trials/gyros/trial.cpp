@@ -48,7 +48,7 @@ public:
         };
     }
 
-    GyroOutcome judge() && {
+    GyroOutcome outcome() && {
         for (tick_ = 0; tick_ < n_ticks_; ++tick_) {
             live_through_half();
             live_through_half();
@@ -181,7 +181,7 @@ private:
 GyroOutcome run(const GyroTrial& trial) {
     GyroOutcome out;
     try {
-        out = Trial{trial.config}.judge();
+        out = Trial{trial.config}.outcome();
     } catch (const std::exception& error) {
         out.crash = error.what();
     }

@@ -26,7 +26,7 @@ SwitchScheduleConfig schedule_of(const MagneticGate& gate) {
 
 }  // namespace
 
-GateResult judge(const MagneticGate& gate, const MovingBase& base, std::uint64_t seed) {
+GateResult gate_result(const MagneticGate& gate, const MovingBase& base, std::uint64_t seed) {
     const BaseRate rate = base.make({seed, chance::Cause::magnetic_base}, seed);
     chance::Draw walk{seed, chance::Cause::magnetic_walk};
     const CompensationConstants constants;

@@ -166,7 +166,7 @@ void add_error(TermScore& score, double error) {
 }
 
 // The sine of the gyro is the line within two resolution widths of it; any other line is false.
-void judge(const RandomGyro& g, const noise::NoiseFit& fit, double n, std::vector<TermScore>& scores) {
+void add_errors(const RandomGyro& g, const noise::NoiseFit& fit, double n, std::vector<TermScore>& scores) {
     std::array<bool, n_kinds> found{}, false_found{};
     for (const FittedTerm& t : fit.fitted) {
         if (!t.found) continue;
@@ -236,7 +236,7 @@ NoiseCampaign run_noise_campaign(const NoiseCampaignTask& task) {
             task.filters ? fit_in(draws.of("unit").within_log(1e-4, 1e4), draws.of("rate").within_log(0.01, 1e4), rates)
                          : noise::fit_noise_in_place(rates, 1.0);
         judge_bandwidth(gyro, fit, campaign);
-        judge(gyro, fit, n, campaign.terms);
+        add_errors(gyro, fit, n, campaign.terms);
         campaign.low_probability += fit.probability < 0.05 ? 1.0 / task.n_gyros : 0.0;
     }
     for (const auto& [second, first] :

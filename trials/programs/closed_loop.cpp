@@ -97,7 +97,8 @@ int print_gate(const GateOptions& o) {
     for (const MovingBase& base : moving_bases(o.gate)) {
         if (base.name.find(o.only) == std::string::npos) continue;
         GateRow row;
-        for (int seed = 1; seed <= o.seeds; ++seed) row.add(judge(o.gate, base, static_cast<std::uint64_t>(seed)));
+        for (int seed = 1; seed <= o.seeds; ++seed)
+            row.add(gate_result(o.gate, base, static_cast<std::uint64_t>(seed)));
         row.print(base.name);
     }
     return 0;

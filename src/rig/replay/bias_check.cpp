@@ -24,7 +24,7 @@ BiasCheck::BiasCheck(const core::CompensationConstants& gyro)
 
 void BiasCheck::take(const core::HalfRecord& half) {
     const bool measured = core::is_measured(half);
-    if (measured && has_last_ && half.mode == last_.mode && half.bias_sign != last_.bias_sign) judge({last_, half});
+    if (measured && has_last_ && half.mode == last_.mode && half.bias_sign != last_.bias_sign) compare({last_, half});
     last_ = half;
     has_last_ = measured;
 }
@@ -37,7 +37,7 @@ bool BiasCheck::counts_one_way(const Pair& pair) const {
            std::fabs(after - before) < 2.0 * least_counts_;
 }
 
-void BiasCheck::judge(const Pair& pair) {
+void BiasCheck::compare(const Pair& pair) {
     ++n_pairs_;
     if (counts_one_way(pair) && ++n_one_way_ == 1) first_one_way_ = pair;
     const double change = static_cast<double>(pair.half.counts) - static_cast<double>(pair.before.counts);

@@ -139,7 +139,7 @@ TEST(AccuracyRecording, AutoIsBetterOnRealMotion) {
     EXPECT_NEAR(find_method(accuracy.recordings[0].axes[0].methods, "constant")->whole.rms_arcsec,
                 error_of_a_constant(recording.path), 1e-6);
     int judged = 0;
-    for (const Criterion& c : judge(accuracy)) {
+    for (const Criterion& c : criteria_of(accuracy)) {
         if (c.wanted.find(recording.name) == std::string::npos) continue;
         ++judged;
         EXPECT_EQ(c.verdict, Verdict::met) << c.wanted << ": " << c.got;

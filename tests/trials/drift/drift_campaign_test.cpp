@@ -48,13 +48,6 @@ TEST(DriftCampaign, FindsTheSawtoothOfPlainSwitching) {
     EXPECT_GT(figures[0].at[1].rms_before_arcsec_s, 0.1);
 }
 
-TEST(DriftCampaign, AHalfLastSegmentTakesItAwayAtTheEnd) {
-    config::Config c = gyro();
-    c.switching.last_segment = config::LastSegment::half;
-    const auto figures = run(campaign({{"half", c, {method(core::MagneticMethod::none)}}}));
-    EXPECT_LT(figures[0].at[1].rms_arcsec_s, 0.02);
-}
-
 TEST(DriftCampaign, TheMagneticEstimateTakesItAwayAtAnyTime) {
     const auto figures =
         run(campaign({{"both", gyro(), {method(core::MagneticMethod::none), method(core::MagneticMethod::estimate)}}}));

@@ -18,7 +18,7 @@ TEST(MagneticGate, NowhereWorseThanWithout) {
         for (const MovingBase& base : moving_bases(gate(schedule))) {
             // What jumps whenever the gyro switches, by less than what was presumed, is a drift of the gyro.
             if (knows_the_mode(base) || base.name == "in step: square wave of 2 arcsec/s") continue;
-            const GateResult r = judge(gate(schedule), base, 2);
+            const GateResult r = gate_result(gate(schedule), base, 2);
             EXPECT_LE(r.with_arcsec, 1.2 * r.without_arcsec)
                 << base.name << ": wrong by " << r.error_arcsec_s << ", trust " << r.trust;
         }
@@ -28,7 +28,7 @@ GateResult judged(const MagneticGate& g, const std::string& name) {
     const auto all = moving_bases(g);
     const auto found = std::find_if(all.begin(), all.end(), [&](const MovingBase& b) { return b.name == name; });
     EXPECT_NE(found, all.end()) << name;
-    return judge(g, *found, 2);
+    return gate_result(g, *found, 2);
 }
 
 TEST(MagneticGate, AtRestTheSawtoothIsTakenOut) {

@@ -44,6 +44,6 @@ struct GateResult {
     double trust = 0.0;
 };
 
-[[nodiscard]] GateResult judge(const MagneticGate& gate, const MovingBase& base, std::uint64_t seed);
+[[nodiscard]] GateResult gate_result(const MagneticGate& gate, const MovingBase& base, std::uint64_t seed);
 
 }  // namespace zlg::trials

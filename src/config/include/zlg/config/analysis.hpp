@@ -8,10 +8,8 @@
 namespace zlg::config {
 
 enum class Deviation { adev, oadev, mdev, tdev, hdev, ohdev, totdev, mtotdev, htotdev };
-enum class TotalBias { removed, published, as_computed };
-enum class Taus { octave, decade, log, all };
+enum class Taus { octave, decade, all };
 enum class ShownRate { deg_h, arcsec_s, deg_s, rad_s };
-enum class AngleColumn { final, delivered };
 enum class TextHolds { increment, rate, phase };
 enum class TextSeparator { automatic, space, tab, semicolon, comma, bar };
 enum class DecimalMark { automatic, point, comma };
@@ -19,14 +17,9 @@ enum class DecimalMark { automatic, point, comma };
 struct Analysis {
     std::vector<Deviation> deviations = {Deviation::oadev};
     Taus taus = Taus::octave;
-    int taus_per_decade = 20;
     std::vector<double> taus_s;  // instead of them
     double confidence = 0.95;
-    double least_known_ratio = 0.9;
-    TotalBias total_bias = TotalBias::removed;  // of totdev, mtotdev, htotdev
     ShownRate unit = ShownRate::deg_h;
-    AngleColumn angles = AngleColumn::final;
-    std::optional<double> latitude_deg;
     std::vector<std::string> column;        // of a text file, by number from 1 or by name; none: 1
     std::optional<TextHolds> column_holds;  // unset: the file is described by [motion]
     double scale_arcsec = 1.0;
@@ -39,7 +32,6 @@ struct Analysis {
     std::string table_column;           // of a rate table's rate; empty or "0": no such test
     double table_scale_arcsec_s = 1.0;  // arcsec/s per unit of it
     double table_settling_s = 0.0;      // of each stage
-    double table_same_rate_ratio = 1e-4;
     double table_earth_arcsec_s = 0.0;
 };
 

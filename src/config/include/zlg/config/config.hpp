@@ -32,7 +32,6 @@ using Laser = twin::LaserConfig;
 using Light = twin::LightConfig;
 using Photodiodes = twin::PhotodiodesConfig;
 
-enum class LastSegment { any, half };
 enum class MotionKind { rest, constant, sine, sum, file };
 enum class ColumnHolds { increment, rate };
 
@@ -48,10 +47,9 @@ struct Gyro : twin::GyroConfig {
 };
 
 struct Perimeter : twin::PerimeterConfig {
-    int relock_halves = 0;         // digital loop: halves after closing in which it corrects all it sees; 0: none
-    double sample_gain = 0.12;     // in these halves, of one light sample
-    double settled_tau_s = 0.025;  // of the digital loop afterwards
-    int set_points = 16;           // a half, of the digital loop
+    int relock_halves = 0;  // digital loop: halves after closing in which it corrects all it sees; 0: none
+    static constexpr double sample_gain = 0.12;         // in these halves, of one light sample
+    static constexpr double settled_tau_s = 0.025;      // of the digital loop afterwards
     std::vector<double> discriminator_detuning_lambda;  // calibrated points of the discriminator; none: it is linear
     std::vector<double> discriminator_signal;           // (I1 - I2)/(I1 + I2) there
     double discriminator_centre_lambda = 0.0;           // detuning of the largest bias
@@ -65,12 +63,9 @@ struct Switching {
     double interval_s = 90.0;
     bool interval_optimal = false;  // interval_s = "optimal"
     FirstSegment first_segment = FirstSegment::full;
-    LastSegment last_segment = LastSegment::any;
     Schedule schedule = Schedule::fixed;
     double interval_min_s = 10.0;  // of a schedule that is not fixed
     double interval_max_s = 600.0;
-    double switch_error_arcsec = 2.0;  // presumed, of one switch, rms
-    double magnetic_arcsec_s = 0.7;    // presumed
     int gap_ticks = 3;
     int gap_min_ticks = 0;  // from which on a switch that has arrived closes the loop; 0: gap_ticks
 };

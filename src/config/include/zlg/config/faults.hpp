@@ -14,7 +14,6 @@ struct Faults {
     std::vector<double> at_s;
     std::vector<double> duration_s;
     std::vector<double> size;  // in the unit of its kind
-    double vibration_hz = twin::default_vibration_hz;
     double random_per_hour = 0.0;
     std::uint64_t random_seed = 1;
     std::vector<twin::FaultKind> random_kinds;  // none: all

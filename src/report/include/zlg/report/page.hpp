@@ -26,6 +26,7 @@ struct Section {
     std::vector<Figure> figures{};
     std::vector<Diagram> diagrams{};  // drawn before the figures, numbered with them
     std::string code{};               // lines to copy, shown as they are, last
+    bool is_of_page = false;          // what no text shows, such as how the page was made
 };
 
 struct Link {
@@ -43,5 +44,9 @@ struct Page {
 };
 
 [[nodiscard]] std::string html(const Page& page);
+
+// The same words and tables for a terminal, without figures; texts wrap, columns stand as wide as they need.
+[[nodiscard]] std::string text(const Table& table);
+[[nodiscard]] std::string text(const Page& page);
 
 }  // namespace zlg::report

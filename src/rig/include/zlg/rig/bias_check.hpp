@@ -38,7 +38,7 @@ private:
         core::HalfRecord half{};
     };
 
-    void judge(const Pair& pair);
+    void compare(const Pair& pair);
     [[nodiscard]] bool counts_one_way(const Pair& pair) const;
 
     double presumed_counts_;  // of the bias in a half

@@ -42,8 +42,6 @@ public:
     [[nodiscard]] const core::GyroControlState& control() const { return control_state_; }
 
 private:
-    ClosedLoop(const config::Config& config, std::int64_t end_tick, twin::Motion&& motion, Processor* processor);
-
     LoopHalf step_here();
     LoopHalf step_outside();
 

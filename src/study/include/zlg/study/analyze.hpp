@@ -53,10 +53,6 @@ struct AnalysisResult {
 
 inline constexpr double earth_rate_arcsec_s = 15.041067;
 
-// The projections at a latitude: on the vertical, and the largest on a horizontal axis.
-[[nodiscard]] double earth_vertical_arcsec_s(double latitude_deg);
-[[nodiscard]] double earth_horizontal_arcsec_s(double latitude_deg);
-
 // errors  config::ConfigError: no deviation is asked for, or mtotdev or htotdev at averaging times that take many
 // minutes and are not in taus_s; deviations::SeriesError, with the axis' name: nothing known, all equal, too short for
 // a deviation, a tau that it does not have.

@@ -53,7 +53,6 @@ struct AxisResult {
     std::int64_t n_samples = 0;
     std::int64_t n_known = 0;
     std::int64_t n_gaps = 0;
-    std::int64_t stands = 1;  // so many samples in a row, or a multiple of it, each value stands
     double mean_arcsec_s = 0.0;  // without the sinusoids that were found
     // What the noise lets it differ by: see docs/noise.md, "Mean rate and the Earth". NaN: not known.
     double mean_sigma_arcsec_s = 0.0;

@@ -14,6 +14,7 @@
 
 #include <zlg/calibration/rate_table.hpp>
 #include <zlg/deviations/deviation.hpp>
+#include <zlg/logs/wire_rows.hpp>
 #include <zlg/noise/mode_split.hpp>
 #include <zlg/noise/noise_fit.hpp>
 #include <zlg/noise/noise_units.hpp>
@@ -63,6 +64,36 @@ BOOST_HANA_ADAPT_STRUCT(zlg::calibration::RateTable, scale_factor, arcsec_per_un
                         nonlinearity_ppm, largest_residual_ppm, hysteresis_arcsec_s);
 
 namespace zlg::study {
+
+// What is counted of a gyro's line: the name for JSON and Python, and the words of a text, empty for what it says
+// otherwise.
+struct LineCount {
+    const char* name;
+    std::uint64_t logs::WireSummary::*member;
+    const char* words = "";
+};
+
+inline constexpr LineCount line_counts[] = {
+    {"bytes", &logs::WireSummary::n_bytes},
+    {"telemetry_messages", &logs::WireSummary::n_telemetry},
+    {"status_messages", &logs::WireSummary::n_status},
+    {"replies", &logs::WireSummary::n_replies},
+    {"lost_messages", &logs::WireSummary::n_lost_messages, "messages lost, by their numbers"},
+    {"lost_ticks", &logs::WireSummary::n_lost_rows, "ticks lost; their angle is shared out among them"},
+    {"final_lost_ticks", &logs::WireSummary::n_final_lost_rows, "ticks without a final value"},
+    {"restarts", &logs::WireSummary::n_restarts, "restarts of the gyro; its turn meanwhile is not in the log"},
+    {"outages", &logs::WireSummary::n_outages},
+    {"outage_ticks", &logs::WireSummary::n_outage_ticks},
+    {"other_tick_messages", &logs::WireSummary::n_other_tick},
+    {"damaged_frames", &logs::WireSummary::n_damaged, "damaged frames"},
+    {"damaged_bytes", &logs::WireSummary::n_damaged_bytes, "bytes in them"},
+    {"foreign_frames", &logs::WireSummary::n_foreign,
+     "of them whole, but of another version of the line: from a gyro with other software"},
+    {"refused_messages", &logs::WireSummary::n_refused, "whole frames that no gyro of ours sends"},
+    {"unfitting_messages", &logs::WireSummary::n_unfitting,
+     "messages that fit neither those before them nor those after"},
+    {"repeated_messages", &logs::WireSummary::n_repeated, "messages that came again or too late"},
+};
 
 // use(name, get) for each: get(result) is its value.
 template <class Result, class Use>

@@ -7,6 +7,9 @@
 
 namespace zlg::study {
 
+// A row for each compensation; those whose figures are equal as shown share one.
+[[nodiscard]] report::Table variant_table(const config::Config& config, const RunResult& result);
+
 [[nodiscard]] report::Page run_page(const config::Config& config, const RunResult& result);
 
 // The error of its angle over the time.

@@ -15,12 +15,12 @@
 #include <zlg/logs/matlab_copy.hpp>
 #include <zlg/logs/raw_log.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "interrupt.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/interrupt.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -53,7 +53,7 @@ void warn_of_absent(const ConvertOptions& options, const config::Settings& setti
 template <class Copy>
 std::int64_t copy_raw(const ConvertOptions& options, logs::RawReader& raw, Copy& copy) {
     const Interruptible interruptible;
-    Progress progress{copy.part_path()};
+    Progress progress;
     core::HalfRecord record;
     std::int64_t rows = 0;
     while (raw.next(record)) {
@@ -93,9 +93,9 @@ double logged_tick_s(const logs::AngleHeader& header, const ConvertOptions& opti
 
 // The same of an angle log.
 template <class Write>
-std::int64_t copy_angles(logs::AngleReader& angles, const std::string& part_path, Write write) {
+std::int64_t copy_angles(logs::AngleReader& angles, Write write) {
     const Interruptible interruptible;
-    Progress progress{part_path};
+    Progress progress;
     logs::TimedAngle angle;
     std::int64_t rows = 0;
     while (angles.next(angle)) {
@@ -115,8 +115,7 @@ std::int64_t convert_angles(const ConvertOptions& options, std::optional<logs::L
     warn_of_absent(options, header.settings, {"tick_s"});
     if (!format) {
         logs::MatlabCopy<logs::AngleTable> copy{options.out, header, options.force};
-        const std::int64_t rows =
-            copy_angles(angles, copy.part_path(), [&copy](const logs::TimedAngle& angle) { copy.write(angle); });
+        const std::int64_t rows = copy_angles(angles, [&copy](const logs::TimedAngle& angle) { copy.write(angle); });
         copy.close();
         return rows;
     }
@@ -131,8 +130,7 @@ std::int64_t convert_angles(const ConvertOptions& options, std::optional<logs::L
         options.force,
         {.has_truth = with_truth, .has_fingerprint = with_fingerprint, .format_version = header.format_version}};
     if (with_fingerprint) copy.set_fingerprint(header.fingerprint);
-    const std::int64_t rows =
-        copy_angles(angles, copy.part_path(), [&copy](const logs::TimedAngle& angle) { copy.write_timed(angle); });
+    const std::int64_t rows = copy_angles(angles, [&copy](const logs::TimedAngle& angle) { copy.write_timed(angle); });
     copy.close();
     return rows;
 }

@@ -14,12 +14,12 @@
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/motion.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "log_settings.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/log_settings.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

@@ -9,21 +9,19 @@
 
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/table_file.hpp>
-#include <zlg/logs/unfinished.hpp>
 #include <zlg/paper/paper.hpp>
 #include <zlg/report/export.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "own_folder.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/own_folder.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 // Outside of this the points measured on the twin and their theory do not belong together.
@@ -45,60 +43,21 @@ std::string claims_table(const std::vector<paper::Claim>& claims) {
     return text;
 }
 
-// Name and content of what is written beside the page.
-using Files = std::vector<std::pair<std::string, std::string>>;
-
-Files files_of(const paper::Paper& paper) {
-    Files files{{claims_name, claims_table(paper.claims)}};
+std::vector<Output> files_of(const paper::Paper& paper, const OwnFolder& folder) {
+    std::vector<Output> files{{folder.path(claims_name), claims_table(paper.claims)}};
+    const auto add = [&](const std::string& name, std::string text) {
+        files.push_back({folder.path(name), std::move(text)});
+    };
     for (const paper::PaperItem& item : paper.items) {
-        for (const report::Diagram& d : item.section.diagrams) files.emplace_back(d.id + ".svg", report::svg_file(d));
+        for (const report::Diagram& d : item.section.diagrams) add(d.id + ".svg", report::svg_file(d));
         for (const report::Figure& f : item.section.figures) {
-            files.emplace_back(f.id + ".svg", report::svg_file(f));
-            files.emplace_back(f.id + ".csv", report::csv(f));
+            add(f.id + ".svg", report::svg_file(f));
+            add(f.id + ".csv", report::csv(f));
         }
     }
+    files.push_back({folder.path(page_name), report::html(paper::paper_page(paper))});
     return files;
 }
-
-// The folder of the paper. What came into it of a run that failed is removed again. That it may be written is known
-// before the work begins.
-class Folder {
-public:
-    Folder(const std::string& path, bool force) : folder_{path}, force_{force} {
-        // Which files there will be shows only at the end, so all that is there counts.
-        if (!folder_.is_new() && !force_ && !fs::is_empty(path))
-            throw logs::IoError{fmt::format("{}: exists and is not empty; --force overwrites what is in it", path)};
-        page_.emplace(folder_.path(page_name), force_);
-    }
-    ~Folder() {
-        const logs::Together all_or_none;
-        page_.reset();
-        std::error_code ignored;
-        if (!finished_)
-            for (const std::string& path : new_) fs::remove(path, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    void write(const std::string& page, const Files& files) {
-        const logs::Together all_or_none;
-        for (const auto& [name, text] : files) {
-            const std::string path = folder_.path(name);
-            if (!fs::exists(path)) new_.push_back(path);
-            write_file(path, text, force_);
-        }
-        page_->append(page);
-        page_->close();
-        finished_ = true;
-    }
-
-private:
-    OwnFolder folder_;
-    bool force_;
-    bool finished_ = false;
-    std::vector<std::string> new_;  // where nothing stood before
-    std::optional<logs::TableFile> page_;
-};
 
 json result_json(const paper::Paper& paper) {
     json items = json::array();
@@ -133,13 +92,18 @@ std::string text(const paper::Paper& paper, const std::string& folder, std::size
 void run(const Options& options) {
     if (options.out.empty()) throw UsageError{"--out is missing: name the folder to write into"};
     paper::PaperTask task{.config = load_config(options), .threads = options.threads};
-    Folder folder{options.out, options.force};
+    const OwnFolder folder{options.out};
+    // Which files there will be shows only at the end, so all that is there counts.
+    if (!folder.is_new() && !options.force && !std::filesystem::is_empty(options.out))
+        throw logs::IoError{fmt::format("{}: exists and is not empty; --force overwrites what is in it", options.out)};
+    std::optional<logs::TableFile> writable{std::in_place, folder.path(page_name), options.force};
     Progress progress;
     task.on_progress = [&](double fraction) { progress.show(fraction); };
     const paper::Paper paper = paper::recompute_paper(task);
-    const Files files = files_of(paper);
-    folder.write(report::html(paper::paper_page(paper)), files);
-    print(options.json ? pretty(result_json(paper)) : text(paper, options.out, files.size()));
+    const std::vector<Output> files = files_of(paper, folder);
+    writable.reset();
+    write_all(files, options.force);
+    print(options.json ? pretty(result_json(paper)) : text(paper, options.out, files.size() - 1));
     if (agrees(paper)) return;
     explain_exit(
         fmt::format("the twin does not agree with theory: chi-square {:.3f} per degree of freedom, allowed is {} to {}",

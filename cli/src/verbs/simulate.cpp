@@ -17,13 +17,13 @@
 #include <zlg/rig/wire_stream.hpp>
 #include <zlg/rig/wiring.hpp>
 
-#include "as_json.hpp"
-#include "cost.hpp"
-#include "failure.hpp"
-#include "interrupt.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/cost.hpp"
+#include "src/failure.hpp"
+#include "src/interrupt.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -67,7 +67,7 @@ private:
 
 void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::RawWriter& raw, LineRecording& line,
             rig::SwitchCount& count, const Interruptible& interruptible) {
-    Progress progress{raw.part_path()};
+    Progress progress;
     const std::int64_t progress_stride = std::clamp<std::int64_t>(ticks / 200, 1, 100'000);
     for (std::int64_t half = 0; half < 2 * ticks; ++half) {
         interruptible.check();

@@ -11,13 +11,13 @@
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "interrupt.hpp"
-#include "mapping_input.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/interrupt.hpp"
+#include "src/mapping_input.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {

@@ -7,13 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include <zlg/logs/follower.hpp>
+#include <zlg/study/fields.hpp>
 
-#include "angle_recording.hpp"
-#include "as_json.hpp"
-#include "interrupt.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/angle_recording.hpp"
+#include "src/as_json.hpp"
+#include "src/interrupt.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -57,13 +58,9 @@ std::string text(const logs::Follower& follower, const FollowOptions& options) {
     std::string text = fmt::format("{}: {} ticks, accumulated angle {} arcsec\n", printable(options.out),
                                    follower.n_rows(), follower.angle_arcsec());
     text += fmt::format("{} bytes, {} messages\n", s.n_bytes, s.n_telemetry + s.n_status + s.n_replies);
-    const auto add = [&text](std::uint64_t n, const char* what) {
-        if (n > 0) text += fmt::format("{:>10} {}\n", n, what);
-    };
-    add(s.n_lost_messages, "messages lost, by their numbers");
-    add(s.n_lost_rows, "ticks lost; their angle is shared out among them");
-    add(s.n_final_lost_rows, "ticks without a final value");
-    add(s.n_restarts, "restarts of the gyro; its turn meanwhile is not in the log");
+    for (const study::LineCount& count : study::line_counts)
+        if (s.*count.member > 0 && *count.words != '\0')
+            text += fmt::format("{:>10} {}\n", s.*count.member, count.words);
     if (s.n_outages > 0)
         text += fmt::format(
             "{:>10} outages of more than {} ticks: {} ticks, in which it turned by {} arcsec, are in no row\n",
@@ -71,39 +68,18 @@ std::string text(const logs::Follower& follower, const FollowOptions& options) {
     if (s.n_other_tick > 0)
         text += fmt::format("{:>10} messages of ticks of {} s; those of the log have {} s, so they are not in it\n",
                             s.n_other_tick, s.other_tick_s, *tick_s);
-    add(s.n_damaged, "damaged frames");
-    add(s.n_damaged_bytes, "bytes in them");
-    add(s.n_foreign, "of them whole, but of another version of the line: from a gyro with other software");
-    add(s.n_refused, "whole frames that no gyro of ours sends");
-    add(s.n_unfitting, "messages that fit neither those before them nor those after");
-    add(s.n_repeated, "messages that came again or too late");
     return text;
 }
 
 nlohmann::json follow_json(const logs::Follower& follower, const FollowOptions& options) {
     const logs::WireSummary& s = follower.rows().summary();
-    return {{"source", options.source},
-            {"angles", options.out},
-            {"ticks", follower.n_rows()},
-            {"angle_arcsec", follower.angle_arcsec()},
-            {"bytes", s.n_bytes},
-            {"telemetry_messages", s.n_telemetry},
-            {"status_messages", s.n_status},
-            {"replies", s.n_replies},
-            {"lost_messages", s.n_lost_messages},
-            {"lost_ticks", s.n_lost_rows},
-            {"final_lost_ticks", s.n_final_lost_rows},
-            {"restarts", s.n_restarts},
-            {"outages", s.n_outages},
-            {"outage_ticks", s.n_outage_ticks},
-            {"outage_arcsec", s.outage_arcsec},
-            {"other_tick_messages", s.n_other_tick},
-            {"unfitting_messages", s.n_unfitting},
-            {"damaged_frames", s.n_damaged},
-            {"damaged_bytes", s.n_damaged_bytes},
-            {"foreign_frames", s.n_foreign},
-            {"refused_messages", s.n_refused},
-            {"repeated_messages", s.n_repeated}};
+    nlohmann::json j{{"source", options.source},
+                     {"angles", options.out},
+                     {"ticks", follower.n_rows()},
+                     {"angle_arcsec", follower.angle_arcsec()},
+                     {"outage_arcsec", s.outage_arcsec}};
+    for (const study::LineCount& count : study::line_counts) j[count.name] = s.*count.member;
+    return j;
 }
 
 void follow(const FollowOptions& options) {

@@ -127,7 +127,7 @@ void add_consistency(const Accuracy& accuracy, const char* method, std::vector<C
 
 }  // namespace
 
-std::vector<Criterion> judge(const Accuracy& accuracy) {
+std::vector<Criterion> criteria_of(const Accuracy& accuracy) {
     std::vector<Criterion> criteria;
     add_whole_switch(accuracy, method_name::automatic, criteria);
     add_relock(accuracy, criteria);

@@ -8,20 +8,18 @@
 
 #include <fmt/format.h>
 
-#include <zlg/logs/table_file.hpp>
-#include <zlg/logs/unfinished.hpp>
 #include <zlg/noise/imu_yaml.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/analyze.hpp>
 
-#include "analysis_input.hpp"
-#include "analysis_text.hpp"
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "mapping_input.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "verbs.hpp"
+#include "src/analysis_input.hpp"
+#include "src/analysis_json.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/mapping_input.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -68,23 +66,6 @@ std::optional<study::PresumedNoise> presumed(const AnalyzeOptions& options) {
                                 .terms = noise::terms_of(noise::read_imu_yaml(options.compare))};
 }
 
-struct Output {
-    std::string path;
-    std::string text;
-};
-
-// Both or neither: none gets its name before all are written.
-void write(const std::vector<Output>& outputs, bool force) {
-    const logs::Together all_or_none;
-    std::vector<logs::TableFile> files;
-    for (const Output& o : outputs) {
-        files.emplace_back(o.path, force);
-        files.back().append(o.text);
-        files.back().flush();
-    }
-    for (logs::TableFile& file : files) file.close();
-}
-
 void analyze(const AnalyzeOptions& options) {
     check_usage(options);
     AnalysisInput input = read_analysis_input(options, options.files);
@@ -104,11 +85,12 @@ void analyze(const AnalyzeOptions& options) {
     result.earth = study::earth_lines(result.axes);
     // All that may refuse comes before the first file.
     std::vector<Output> outputs;
-    if (!options.out.empty()) outputs.push_back({options.out, report::html(study::analysis_page(task.config, result))});
+    const report::Page page = study::analysis_page(task.config, result);
+    if (!options.out.empty()) outputs.push_back({options.out, report::html(page)});
     if (!options.imu_yaml.empty())
         outputs.push_back({options.imu_yaml, noise::imu_yaml(study::kalibr_gyro(result.axes))});
-    write(outputs, options.force);
-    print(options.json ? pretty(analysis_json(task.config, result)) : analysis_text(task.config, result));
+    write_all(outputs, options.force);
+    print(options.json ? pretty(analysis_json(result)) : report::text(page));
 }
 
 }  // namespace

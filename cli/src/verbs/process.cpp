@@ -21,14 +21,14 @@
 #include <zlg/study/half_wave_replay.hpp>
 #include <zlg/study/switch_table.hpp>
 
-#include "as_json.hpp"
-#include "failure.hpp"
-#include "interrupt.hpp"
-#include "mapping_input.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "switch_csv.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/failure.hpp"
+#include "src/interrupt.hpp"
+#include "src/mapping_input.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/switch_csv.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -129,7 +129,7 @@ Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter&
                    const ProcessOptions& options, const Interruptible& interruptible) {
     Summary summary;
     core::HalfRecord record;
-    Progress progress{angles.part_path()};
+    Progress progress;
     const bool has_light = raw.header().light_samples > 0;
     const auto write = [&](const core::AngleRow& row) {
         summary.take(row);

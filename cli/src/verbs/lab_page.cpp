@@ -11,7 +11,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/text/whole_file.hpp>
 
-#include "own_folder.hpp"
+#include "src/own_folder.hpp"
 
 namespace zlg::cli {
 namespace {

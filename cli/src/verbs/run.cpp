@@ -4,6 +4,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <zlg/config/schema.hpp>
@@ -16,18 +17,17 @@
 #include <zlg/study/what_happened.hpp>
 #include <zlg/twin/motion.hpp>
 
-#include "as_json.hpp"
-#include "cost.hpp"
-#include "failure.hpp"
-#include "fields_json.hpp"
-#include "interrupt.hpp"
 #include "lab_page.hpp"
-#include "options.hpp"
-#include "output.hpp"
-#include "own_folder.hpp"
-#include "run_files.hpp"
-#include "run_text.hpp"
-#include "verbs.hpp"
+#include "src/as_json.hpp"
+#include "src/cost.hpp"
+#include "src/failure.hpp"
+#include "src/fields_json.hpp"
+#include "src/interrupt.hpp"
+#include "src/options.hpp"
+#include "src/output.hpp"
+#include "src/own_folder.hpp"
+#include "src/run_files.hpp"
+#include "src/verbs.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -71,9 +71,10 @@ json summary_json(const config::Config& config, const study::RunResult& result) 
 }
 
 std::string text(const study::Resolved& resolved, const study::RunResult& result, const RunFiles& files) {
-    return fmt::format("{}fingerprint of the run: {}\nwritten to {}: {}\nopen {} in a browser\n",
-                       run_text(resolved.config, result), result.fingerprint, printable(files.folder()), files.list(),
-                       printable(files.page()));
+    return fmt::format("{}\n\n{}\nfingerprint of the run: {}\nwritten to {}: {}\nopen {} in a browser\n",
+                       fmt::join(study::what_happened(resolved.config, result), "\n"),
+                       report::text(study::variant_table(resolved.config, result)), result.fingerprint,
+                       printable(files.folder()), files.list(), printable(files.page()));
 }
 
 struct RunOptions : Options {
@@ -101,7 +102,7 @@ KeptLogs kept_logs(const RunOptions& options) {
 
 study::RunResult run_into(RunFiles& files, const study::Resolved& resolved, const RunOptions& options,
                           const Interruptible& interruptible) {
-    Progress progress{files.raw() != nullptr ? files.raw_part() : files.angles_part()};
+    Progress progress;
     study::RunTask task{.config = resolved.config,
                         .warnings = resolved.warnings,
                         .threads = options.threads,
