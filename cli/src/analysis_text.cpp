@@ -28,6 +28,7 @@ std::string head_text(const config::Analysis& config, const AxisResult& axis) {
     const double span_s = static_cast<double>(axis.n_samples) / axis.rate_hz;
     std::string text = fmt::format("{}: {}, {:g} Hz\n  {} samples, {:.6g} s, {} known, {} gaps\n", printable(axis.name),
                                    axis.holds, axis.rate_hz, axis.n_samples, span_s, axis.n_known, axis.n_gaps);
+    for (const std::string& doubt : axis.doubts) text += fmt::format("  doubt: {}\n", printable(doubt));
     const auto in_unit = [&config](double x) { return study::shown_rate(config.unit, x); };
     text += fmt::format("  mean rate   {} {}\n",
                         study::with_error(in_unit(axis.mean_arcsec_s), in_unit(axis.mean_sigma_arcsec_s)),

@@ -15,7 +15,7 @@ namespace {
 
 // In the order of config::ValueKind.
 constexpr std::array kind_names{"real",    "optional_real", "integer", "text",   "reals", "choice", "optional_choice",
-                                "choices", "interval",      "column",  "columns"};
+                                "choices", "interval",      "column"};
 
 py::list keys() {
     py::list all;

@@ -33,22 +33,17 @@ logs::TextMark mark_of(config::DecimalMark mark) {
     return logs::TextMark::automatic;
 }
 
-template <class Section>
-logs::TextLayout layout_of(const Section& section, const char* name) {
-    logs::TextLayout layout;
-    layout.comment = section.comment;
-    layout.skip_lines = section.skip_lines;
-    layout.separator = separator_of(section.separator);
-    layout.mark = mark_of(section.decimal);
-    layout.time_column = section.time_column;
-    layout.section = name;
-    return layout;
-}
-
 }  // namespace
 
-logs::TextLayout text_layout(const config::Analysis& analysis) { return layout_of(analysis, "analysis"); }
-
-logs::TextLayout text_layout(const config::Motion& motion) { return layout_of(motion, "motion"); }
+logs::TextLayout text_layout(const config::Motion& motion) {
+    logs::TextLayout layout;
+    layout.comment = motion.comment;
+    layout.skip_lines = motion.skip_lines;
+    layout.separator = separator_of(motion.separator);
+    layout.mark = mark_of(motion.decimal);
+    layout.time_column = motion.time_column;
+    layout.section = "motion";
+    return layout;
+}
 
 }  // namespace zlg::recorded
