@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <ranges>
@@ -21,10 +20,9 @@ namespace {
 constexpr std::size_t most_sensors = 16;
 
 bool names_sensor(const std::string& name) {
-    constexpr auto names =
-        std::to_array<std::string_view>({"id", "sensor", "sensor_id", "sensorid", "device", "device_id", "channel",
-                                         "kanal", "node", "can_id", "axis", "achse"});
-    return std::ranges::find(names, text::lower_case(name)) != names.end();
+    constexpr std::string_view names =
+        " id sensor sensor_id sensorid device device_id channel kanal node can_id axis achse ";
+    return !name.empty() && names.find(fmt::format(" {} ", text::lower_case(name))) != std::string_view::npos;
 }
 
 // Of each row which of a few words or whole numbers stands in it; empty where they are many, or one.

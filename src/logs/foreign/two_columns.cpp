@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
-#include <string_view>
 #include <utility>
 #include <zlg/logs/row_times.hpp>
 #include <zlg/text/spelling.hpp>
 
 #include "foreign_readers.hpp"
+#include "text_table/time_names.hpp"
 
 namespace zlg::logs {
 
@@ -25,30 +23,8 @@ std::string last_word(const std::string& name) {
     return small.substr(at == std::string::npos ? 0 : at + 1, end == std::string::npos ? 0 : end - (at + 1) + 1);
 }
 
-// How many of the parts make a second, by the name of their column.
-double parts_named(const std::string& name) {
-    constexpr auto names = std::to_array<std::pair<std::string_view, double>>({{"nanosec", 1e9},
-                                                                               {"nanosecs", 1e9},
-                                                                               {"nanoseconds", 1e9},
-                                                                               {"nsec", 1e9},
-                                                                               {"nsecs", 1e9},
-                                                                               {"ns", 1e9},
-                                                                               {"usec", 1e6},
-                                                                               {"usecs", 1e6},
-                                                                               {"us", 1e6},
-                                                                               {"microseconds", 1e6},
-                                                                               {"msec", 1e3},
-                                                                               {"ms", 1e3},
-                                                                               {"milliseconds", 1e3}});
-    const std::string word = last_word(name);
-    const auto found = std::ranges::find(names, std::string_view{word}, &std::pair<std::string_view, double>::first);
-    return found == names.end() ? 0.0 : found->second;
-}
-
-bool names_seconds(const std::string& name) {
-    constexpr auto names = std::to_array<std::string_view>({"sec", "secs", "s", "second", "seconds"});
-    return std::ranges::find(names, last_word(name)) != names.end();
-}
+// How many of the last word of the name make a second; 0: it is no unit.
+double unit_behind(const std::string& name) { return time_unit(last_word(name)).value_or(0.0); }
 
 bool all_whole(const std::vector<double>& values) {
     return std::ranges::all_of(values, [](double v) { return v >= 0.0 && v == std::floor(v); });
@@ -60,11 +36,11 @@ double parts_in(const ForeignColumn& whole, const ForeignColumn& part) {
     if (!whole.is_number || !part.is_number || whole.values.size() < 3) return 0.0;
     if (!all_whole(whole.values) || !all_whole(part.values) || !std::ranges::is_sorted(whole.values)) return 0.0;
     const double most = *std::ranges::max_element(part.values);
-    double parts = names_seconds(whole.name) ? parts_named(part.name) : 0.0;
-    if (parts == 0.0 && !std::ranges::is_sorted(part.values))
+    double parts = unit_behind(whole.name) == 1.0 ? unit_behind(part.name) : 0.0;
+    if (parts < 1e3 && !std::ranges::is_sorted(part.values))
         for (const double some : {1e3, 1e6, 1e9})
             if (most < some && most > some / 2.0) parts = some;
-    if (parts == 0.0 || most >= parts) return 0.0;
+    if (parts < 1e3 || most >= parts) return 0.0;
     std::vector<double> times;
     for (std::size_t k = 0; k < part.values.size(); ++k)
         times.push_back(whole.values[k] - whole.values.front() + part.values[k] / parts);

@@ -43,43 +43,27 @@ std::string usual_spelling(std::string_view word) {
     std::erase(text, ' ');
     if (text.size() > 1 && text[0] == 'M' && text[1] >= 'a') return text;
     text = text::small_letters(text);
+    // Each word of the second is spelt as the first, in this order.
     constexpr auto spellings = std::to_array<std::pair<std::string_view, std::string_view>>(
-        {{"\xC2\xB0", "deg"},
-         {"\xC2\xBA", "deg"},
-         {"\xC2\xB5", "u"},
-         {"\xCE\xBC", "u"},
-         {"\xC2\xB7", ""},
-         {"\u0433\u0440\u0430\u0434", "deg"},
-         {"\u0443\u0433\u043b.\u0441\u0435\u043a", "arcsec"},
-         {"\u0443\u0433\u043b.\u0441", "arcsec"},
-         {"\u0443\u0433\u043b. \u0441", "arcsec"},
-         {"\u043c\u0440\u0430\u0434", "mrad"},
-         {"\u0440\u0430\u0434", "rad"},
-         {"/\u0441\u0435\u043a", "/s"},
-         {"/\u0441", "/s"},
-         {"/\u0447\u0430\u0441", "/h"},
-         {"/\u0447", "/h"},
-         {"/\u043c\u0438\u043d", "/min"},
-         {"degrees", "deg"},
-         {"degree", "deg"},
-         {"grad/", "deg/"},
-         {"radians", "rad"},
-         {"bogensekunden", "arcsec"},
-         {"_", "/"},
-         {"/seconds", "/s"},
-         {"/second", "/s"},
-         {"/sec", "/s"},
-         {"/hour", "/h"},
-         {"/hr", "/h"},
-         {"/std", "/h"},
-         {"/minute", "/min"},
-         {"arc-sec", "arcsec"},
-         {"arcseconds", "arcsec"},
-         {"pulses", "counts"},
-         {"\"", "arcsec"},
-         {"''", "arcsec"},
-         {"\xE2\x80\xB3", "arcsec"}});
-    for (const auto& [from, to] : spellings) replace(text, from, to);
+        {{"deg", "\xC2\xB0 \xC2\xBA \u0433\u0440\u0430\u0434 degrees degree"},
+         {"deg/", "grad/"},
+         {"u", "\xC2\xB5 \xCE\xBC"},
+         {"", "\xC2\xB7"},
+         {"arcsec",
+          "\u0443\u0433\u043b.\u0441\u0435\u043a \u0443\u0433\u043b.\u0441 arcseconds arc-sec bogensekunden \" '' "
+          "\xE2\x80\xB3"},
+         {"mrad", "\u043c\u0440\u0430\u0434"},
+         {"rad", "\u0440\u0430\u0434 radians"},
+         {"/", "_"},
+         {"/s", "/\u0441\u0435\u043a /\u0441 /seconds /second /sec"},
+         {"/h", "/\u0447\u0430\u0441 /\u0447 /hour /hr /std"},
+         {"/min", "/\u043c\u0438\u043d /minute"},
+         {"counts", "pulses"}});
+    for (auto [to, words] : spellings)
+        for (std::size_t end = 0; !words.empty(); words.remove_prefix(std::min(end + 1, words.size()))) {
+            end = std::min(words.find(' '), words.size());
+            replace(text, words.substr(0, end), to);
+        }
     if (text == "dps") return "deg/s";
     if (text == "dph") return "deg/h";
     if (text == "mdps") return "mdeg/s";

@@ -1,5 +1,7 @@
 #include "time_names.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -42,41 +44,20 @@ std::string_view last_part(std::string_view name) {
     return end == std::string_view::npos || at == std::string_view::npos ? name : name.substr(at + 1);
 }
 
+// Words of a unit, with blanks between, and how many of it make a second.
 struct NamedUnit {
-    std::string_view name;
+    std::string_view words;
     double to_a_second;
 };
 
-constexpr auto units = std::to_array<NamedUnit>({{"s", 1.0},
-                                                 {"sec", 1.0},
-                                                 {"secs", 1.0},
-                                                 {"second", 1.0},
-                                                 {"seconds", 1.0},
-                                                 {"sekunden", 1.0},
-                                                 {"\u0441", 1.0},
-                                                 {"\u0441\u0435\u043a", 1.0},
-                                                 {"ms", 1e3},
-                                                 {"msec", 1e3},
-                                                 {"millis", 1e3},
-                                                 {"\u043c\u0441", 1e3},
-                                                 {"us", 1e6},
-                                                 {"usec", 1e6},
-                                                 {"micros", 1e6},
-                                                 {"\xC2\xB5s", 1e6},
-                                                 {"\xCE\xBCs", 1e6},
-                                                 {"\u043c\u043a\u0441", 1e6},
-                                                 {"ns", 1e9},
-                                                 {"nsec", 1e9},
-                                                 {"nanosec", 1e9},
-                                                 {"min", 1.0 / 60.0},
-                                                 {"\u043c\u0438\u043d", 1.0 / 60.0},
-                                                 {"h", 1.0 / 3600.0},
-                                                 {"hours", 1.0 / 3600.0},
-                                                 {"\u0447", 1.0 / 3600.0},
-                                                 {"d", 1.0 / 86400.0},
-                                                 {"days", 1.0 / 86400.0},
-                                                 {"mjd", 1.0 / 86400.0},
-                                                 {"jd", 1.0 / 86400.0}});
+constexpr auto units =
+    std::to_array<NamedUnit>({{" s sec secs second seconds sekunden \u0441 \u0441\u0435\u043a ", 1.0},
+                              {" ms msec millis milliseconds \u043c\u0441 ", 1e3},
+                              {" us usec usecs micros microseconds \xC2\xB5s \xCE\xBCs \u043c\u043a\u0441 ", 1e6},
+                              {" ns nsec nsecs nanosec nanoseconds ", 1e9},
+                              {" min \u043c\u0438\u043d ", 1.0 / 60.0},
+                              {" h hours \u0447 ", 1.0 / 3600.0},
+                              {" d days mjd jd ", 1.0 / 86400.0}});
 
 // Words that are a name of times and their unit at once.
 constexpr std::array<std::string_view, 4> names_of_units{"millis", "micros", "mjd", "jd"};
@@ -88,8 +69,7 @@ std::vector<double> units_in(std::string_view name) {
     for (bool is_first = true; !name.empty(); is_first = false) {
         const std::string word = next_word(name);
         if (is_first && std::ranges::find(names_of_units, std::string_view{word}) == names_of_units.end()) continue;
-        const auto found = std::ranges::find(units, std::string_view{word}, &NamedUnit::name);
-        if (found != units.end()) all.push_back(found->to_a_second);
+        if (const auto unit = time_unit(word)) all.push_back(*unit);
     }
     return all;
 }
@@ -105,7 +85,21 @@ bool is_factor(std::string_view name, std::size_t from, std::size_t to) {
     return is(to, is_unit_letter) ? is_long || !numbers_word : is_long && !numbers_word;
 }
 
+bool has_word(std::string_view column_name, std::string_view words) {
+    std::string_view rest = last_part(column_name);
+    while (!rest.empty())
+        if (words.find(fmt::format(" {} ", next_word(rest))) != std::string_view::npos) return true;
+    return false;
+}
+
 }  // namespace
+
+std::optional<double> time_unit(std::string_view word) {
+    const std::string as_listed = fmt::format(" {} ", word);
+    const auto found = std::ranges::find_if(
+        units, [&](const NamedUnit& unit) { return unit.words.find(as_listed) != std::string_view::npos; });
+    return found == units.end() ? std::nullopt : std::optional{found->to_a_second};
+}
 
 bool names_factor(std::string_view full_name) {
     const std::string plain = without_powers(full_name);
@@ -158,22 +152,13 @@ bool names_time(std::string_view column_name) {
 }
 
 bool mentions_time(std::string_view column_name) {
-    constexpr auto words = std::to_array<std::string_view>(
-        {"time", "timestamp", "stamp", "zeit", "tow", "epoch", "unix", "utc", "elapsed", "micros", "millis", "mjd"});
-    std::string_view rest = last_part(column_name);
-    while (!rest.empty())
-        if (std::ranges::find(words, std::string_view{next_word(rest)}) != words.end()) return true;
-    return false;
+    return has_word(column_name, " time timestamp stamp zeit tow epoch unix utc elapsed micros millis mjd ");
 }
 
 bool names_counter(std::string_view column_name) {
-    constexpr auto words = std::to_array<std::string_view>({"n", "nr", "no", "sample", "samples", "index", "idx", "seq",
-                                                            "frame", "count", "counter", "packet", "cnt", "sequence",
-                                                            "iteration", "\u043d\u043e\u043c\u0435\u0440"});
-    std::string_view rest = last_part(column_name);
-    while (!rest.empty())
-        if (std::ranges::find(words, std::string_view{next_word(rest)}) != words.end()) return true;
-    return false;
+    return has_word(column_name,
+                    " n nr no sample samples index idx seq frame count counter packet cnt sequence iteration "
+                    "\u043d\u043e\u043c\u0435\u0440 ");
 }
 
 }  // namespace zlg::logs

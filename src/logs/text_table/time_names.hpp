@@ -16,6 +16,9 @@ namespace zlg::logs {
 // One of its words is of a number of rows: seq, PacketCounter, loopIteration.
 [[nodiscard]] bool names_counter(std::string_view column_name);
 
+// How many make a second, of a word in small letters; empty: it is no unit of times.
+[[nodiscard]] std::optional<double> time_unit(std::string_view word);
+
 // s^-1 and s-1 as /s.
 [[nodiscard]] std::string without_powers(std::string_view name);
 
