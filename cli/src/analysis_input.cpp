@@ -178,7 +178,7 @@ config::Config read_one(const Options& options, const std::string& path, Analysi
         if (is_raw(kind)) return read_raw(options, path, input.axes);
         if (is_angles(kind)) return read_angles(options, path, input.axes);
     }
-    const logs::ForeignLook look = look_at(options, path);
+    const logs::ForeignLook look = look_at(options, {path});
     if (look.makes == logs::Makes::axes) return read_mapped(options, path, look, input);
     return read_raw(options, path, input.axes);
 }

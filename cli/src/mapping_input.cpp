@@ -35,14 +35,16 @@ logs::Mapping mapping_of(const Options& options) {
     return mapping;
 }
 
-logs::ForeignLook look_at(const Options& options, const std::string& path) {
+logs::ForeignLook look_at(const Options& options, const std::vector<std::string>& paths) {
     const logs::Mapping mapping = mapping_of(options);
-    const logs::LogKind kind = logs::recognise(path);
-    // With a mapping that names its columns even a log may be read anew.
-    if (is_angles(kind) || (is_raw(kind) && !is_mapped(options)))
-        throw UsageError{fmt::format("{}: is {} log of zlg already, and needs no import", path,
-                                     is_raw(kind) ? "a raw" : "an angle")};
-    return logs::look_at_foreign(path, mapping);
+    for (const std::string& path : paths) {
+        const logs::LogKind kind = logs::recognise(path);
+        // With a mapping that names its columns even a log may be read anew.
+        if (is_angles(kind) || (is_raw(kind) && !is_mapped(options)))
+            throw UsageError{fmt::format("{}: is {} log of zlg already, and needs no import", path,
+                                         is_raw(kind) ? "a raw" : "an angle")};
+    }
+    return logs::look_at_foreign(paths, mapping);
 }
 
 void note_all(const std::string& path, const std::vector<std::string>& notes) {
@@ -51,7 +53,7 @@ void note_all(const std::string& path, const std::vector<std::string>& notes) {
 
 logs::RawReader open_raw(const Options& options, const std::string& path) {
     if (!is_mapped(options) && logs::recognise(path) != logs::LogKind::unknown) return logs::RawReader{path};
-    const logs::ForeignLook look = look_at(options, path);
+    const logs::ForeignLook look = look_at(options, {path});
     if (look.makes != logs::Makes::raw)
         throw UsageError{
             fmt::format("{}: --map counts=COLUMN is missing: a raw log has counts; without them it is "

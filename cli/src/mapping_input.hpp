@@ -35,7 +35,7 @@ void note_all(const std::string& path, const std::vector<std::string>& notes);
 // needs no mapping.
 [[nodiscard]] logs::RawReader open_raw(const Options& options, const std::string& path);
 
-// What a foreign file says of itself. errors  UsageError: it is one of our logs.
-[[nodiscard]] logs::ForeignLook look_at(const Options& options, const std::string& path);
+// What a foreign file, or files of one record, say of themselves. errors  UsageError: one is a log of ours.
+[[nodiscard]] logs::ForeignLook look_at(const Options& options, const std::vector<std::string>& paths);
 
 }  // namespace zlg::cli

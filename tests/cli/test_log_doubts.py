@@ -84,6 +84,22 @@ class Holes(Doubts):
         self.all_found(self.table("mjd.csv", "MJD,w_dph", days, self.w(len(keep))))
         self.all_found(self.table("t.csv", "t,w_dph", days, self.w(len(keep))), "--map", "time_unit=d")
 
+    def test_files_of_one_record(self):
+        n, w = 3000, self.rates(3000)
+        parts = [range(0, 1000), range(1000, 1950), range(2000, 3000)]
+        stamp = lambda k: f"2026-03-01 23:59:{40 + k / 100:06.3f}" if k < 2000 else f"2026-03-02 00:00:{(k - 2000) / 100:06.3f}"
+        for head, form, said in (("t_s,w_dph", lambda k: f"{k / 100:.2f}", []), ("when,w_dph", stamp, []),
+                                 ("seq,w_dph", lambda k: k % 256, ["--map", "rate_hz=100"])):
+            paths = [self.table(f"part{i}.csv", head, [form(k) for k in part], [f"{w[k]:.6f}" for k in part]) for i, part in enumerate(parts)]
+            out = self.folder / "a.csv"
+            self.succeed("import", *paths, *said, "--out", out, "--force")
+            _, axis = self.mean(out)
+            self.assertEqual((axis["samples"], axis["known"], axis["gaps"]), (n, n - 50, 1))
+            if head != "seq,w_dph":
+                self.refuse((2, 3), "import", paths[1], paths[0], "--out", out, "--force", *said)
+        other = self.table("other.csv", "t_s,v_dph", [1, 2, 3], [1, 2, 4])
+        self.refuse(2, "import", paths[0], other, says=("other.csv", "columns"))
+
     def test_what_is_not_used_is_named(self):
         n = 400
         t = numpy.arange(n) * 0.01

@@ -31,6 +31,11 @@ struct ForeignLook {
 // errors  as foreign_table(); MappingError: a column that is said is not there.
 [[nodiscard]] ForeignLook look_at_foreign(const std::string& path, const Mapping& said);
 
+// The same of files of one record, in their order: rows that are missing between them are as those within one.
+//
+// errors  as above; MappingError: they have not the same columns.
+[[nodiscard]] ForeignLook look_at_foreign(const std::vector<std::string>& paths, const Mapping& said);
+
 // errors  MappingError: one line with all that is missing.
 void require_whole(const ForeignLook& look);
 
