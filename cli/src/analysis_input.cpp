@@ -16,7 +16,6 @@
 #include "failure.hpp"
 #include "mapping_input.hpp"
 #include "output.hpp"
-#include "text_input.hpp"
 
 namespace zlg::cli {
 namespace {
@@ -126,13 +125,32 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
     return asked.config;
 }
 
+study::TableResult table_test(const config::Analysis& a, const study::AxisRecord& axis,
+                              const std::vector<double>& table_rates) {
+    if (table_rates.size() != axis.rates_arcsec_s.size())
+        throw UsageError{"--map holds=angle: a rate-table test takes increments or rates"};
+    const double settling =
+        std::min(std::ceil(a.table_settling_s * axis.rate_hz), static_cast<double>(table_rates.size()));
+    const calibration::RateTableOptions options{.same_rate_ratio = a.table_same_rate_ratio,
+                                                .settling_samples = static_cast<std::int64_t>(settling),
+                                                .earth_arcsec_s = a.table_earth_arcsec_s};
+    try {
+        return {.name = axis.name,
+                .holds = axis.holds,
+                .table = calibration::rate_table(table_rates, axis.rates_arcsec_s, options)};
+    } catch (const deviations::SeriesError& error) {
+        throw deviations::SeriesError{fmt::format("{}: {}", axis.name, error.what())};
+    }
+}
+
 // Axes of another program's file.
 config::Config read_mapped(const Options& options, const std::string& path, const logs::ForeignLook& look,
                            AnalysisInput& input) {
+    const config::Config config = load_config(options);
     logs::ImportedAxes imported = logs::imported_axes(look);
-    for (const std::string& note : look.table.notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
-    for (const std::string& note : look.said) complain(fmt::format("note: {}: {}", name_of_file(path), note));
-    for (const std::string& note : imported.notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
+    note_all(path, look.table.notes);
+    note_all(path, look.said);
+    note_all(path, imported.notes);
     for (logs::ImportedAxis& from : imported.axes) {
         study::AxisRecord axis;
         axis.name = fmt::format("{}, {}", name_of_file(path), from.name);
@@ -141,21 +159,26 @@ config::Config read_mapped(const Options& options, const std::string& path, cons
         axis.rate_hz = from.rate_hz;
         axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
         axis.phase_arcsec = std::move(from.phase_arcsec);
-        input.axes.push_back(std::move(axis));
+        axis.mode = std::move(from.mode);
+        axis.doubts = std::move(from.doubts);
+        note_all(path, axis.doubts);
+        if (imported.table_rates_arcsec_s.empty())
+            input.axes.push_back(std::move(axis));
+        else
+            input.tables.push_back(table_test(config.analysis, axis, imported.table_rates_arcsec_s));
     }
-    return load_config(options);
+    return config;
 }
 
 config::Config read_one(const Options& options, const std::string& path, AnalysisInput& input) {
-    if (is_mapped(options)) {
-        const logs::ForeignLook look = look_at(options, path);
-        if (look.makes == logs::Makes::axes) return read_mapped(options, path, look, input);
-        return read_raw(options, path, input.axes);
+    if (!is_mapped(options)) {
+        const logs::LogKind kind = logs::recognise(path);
+        if (is_raw(kind)) return read_raw(options, path, input.axes);
+        if (is_angles(kind)) return read_angles(options, path, input.axes);
     }
-    const logs::LogKind kind = logs::recognise(path);
-    if (is_raw(kind)) return read_raw(options, path, input.axes);
-    if (is_angles(kind)) return read_angles(options, path, input.axes);
-    return read_text(options, path, input.axes, input.tables);
+    const logs::ForeignLook look = look_at(options, {path});
+    if (look.makes == logs::Makes::axes) return read_mapped(options, path, look, input);
+    return read_raw(options, path, input.axes);
 }
 
 // Deviations are sums of squares, and their fit squares them again: a double must hold the fourth power.

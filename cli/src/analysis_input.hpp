@@ -13,13 +13,13 @@ namespace zlg::cli {
 struct AnalysisInput {
     config::Config config;  // of the first file: what it says of itself, the options over it
     std::vector<study::AxisRecord> axes;
-    std::vector<study::TableResult> tables;  // where a text file has the rate of a rate table, instead of axes
+    std::vector<study::TableResult> tables;  // where a file has the rate of a rate table, instead of axes
 };
 
 // Raw logs go through the compensation first. A log of either kind gives its angle, and the error of the angle where it
-// holds the true one; a text file each of the columns named.
+// holds the true one; a file of another program each of its axes.
 //
-// errors  logs::IoError, logs::FormatError; config::ConfigError: also a text file of which is not said what it holds.
+// errors  logs::IoError, logs::FormatError; logs::MappingError: what a file holds is open; config::ConfigError.
 [[nodiscard]] AnalysisInput read_analysis_input(const Options& options, const std::vector<std::string>& paths);
 
 }  // namespace zlg::cli

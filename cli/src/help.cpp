@@ -62,8 +62,7 @@ constexpr std::array verb_table{
              "  zlg inspect raw.h5.part --repair --out raw.h5"},
     VerbHelp{"analyze", analysing,
              "  zlg analyze angles.h5 --out analysis.html\n"
-             "  zlg analyze rates.csv --set analysis.column_holds=rate --set analysis.rate_hz=100 --set "
-             "analysis.skip_lines=1"},
+             "  zlg analyze rates.csv --map axis=gyro_z --map unit=deg/s --map holds=rate --map rate_hz=100"},
     VerbHelp{"design", designing,
              "  zlg design --out design.html\n"
              "  zlg design --set drift.magnetic_arcsec_s=2 --run-lengths 600,3600"},

@@ -15,6 +15,17 @@ void add_mapping_options(CLI::App& verb, Options& options) {
     verb.add_option("--map", options.maps, "key=value, over that file; repeatable")->allow_extra_args(false);
 }
 
+void add_strict_option(CLI::App& verb, Options& options) {
+    verb.add_flag("--strict", options.strict, "exit status 1 where values may be no measurements");
+}
+
+void refuse_doubts(const Options& options, std::size_t n_doubts) {
+    if (!options.strict || n_doubts == 0) return;
+    explain_exit(fmt::format("--strict: {} line{} above say{} what may be no measurement", n_doubts,
+                             n_doubts == 1 ? "" : "s", n_doubts == 1 ? "s" : ""));
+    throw CLI::RuntimeError{result_says_no};
+}
+
 bool is_mapped(const Options& options) { return !options.mapping_path.empty() || !options.maps.empty(); }
 
 logs::Mapping mapping_of(const Options& options) {
@@ -24,25 +35,34 @@ logs::Mapping mapping_of(const Options& options) {
     return mapping;
 }
 
-logs::ForeignLook look_at(const Options& options, const std::string& path) {
+logs::ForeignLook look_at(const Options& options, const std::vector<std::string>& paths) {
     const logs::Mapping mapping = mapping_of(options);
-    const logs::LogKind kind = logs::recognise(path);
-    // With a mapping that names its columns even a log may be read anew.
-    if (is_angles(kind) || (is_raw(kind) && !is_mapped(options)))
-        throw UsageError{fmt::format("{}: is {} log of zlg already, and needs no import", path,
-                                     is_raw(kind) ? "a raw" : "an angle")};
-    return logs::look_at_foreign(path, mapping);
+    for (const std::string& path : paths) {
+        const logs::LogKind kind = logs::recognise(path);
+        // With a mapping that names its columns even a log may be read anew.
+        if (is_angles(kind) || (is_raw(kind) && !is_mapped(options)))
+            throw UsageError{fmt::format("{}: is {} log of zlg already, and needs no import", path,
+                                         is_raw(kind) ? "a raw" : "an angle")};
+    }
+    return logs::look_at_foreign(paths, mapping);
+}
+
+void note_all(const std::string& path, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
 }
 
 logs::RawReader open_raw(const Options& options, const std::string& path) {
-    if (!is_mapped(options)) return logs::RawReader{path};
-    const logs::ForeignLook look = look_at(options, path);
+    if (!is_mapped(options) && logs::recognise(path) != logs::LogKind::unknown) return logs::RawReader{path};
+    const logs::ForeignLook look = look_at(options, {path});
     if (look.makes != logs::Makes::raw)
-        throw UsageError{fmt::format("{}: --map counts=COLUMN is missing: a raw log has counts", path)};
+        throw UsageError{
+            fmt::format("{}: --map counts=COLUMN is missing: a raw log has counts; without them it is "
+                        "read by analyze, and zlg import shows its columns",
+                        path)};
     logs::ImportedRaw made = logs::imported_raw(look);
-    for (const std::string& note : look.table.notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
-    for (const std::string& note : look.said) complain(fmt::format("note: {}: {}", name_of_file(path), note));
-    for (const std::string& note : made.notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
+    note_all(path, look.table.notes);
+    note_all(path, look.said);
+    note_all(path, made.notes);
     return {path, std::move(made.header), std::move(made.rows)};
 }
 

@@ -31,6 +31,7 @@ struct Options {
     bool json = false;
     std::string mapping_path;       // of files of other programs
     std::vector<std::string> maps;  // over it
+    bool strict = false;            // values that may be no measurements make exit status 1
 };
 
 void add_config_options(CLI::App& verb, Options& options);

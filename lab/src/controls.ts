@@ -67,7 +67,7 @@ export class Controls {
 
     private chosen(): [string, Key[]][] {
         const words = this.search.value.toLowerCase().split(/\s+/).filter((word) => word !== "");
-        const usable = this.keys.filter((key) => !elsewhere.has(key.section) && key.kind !== "column" && key.kind !== "columns");
+        const usable = this.keys.filter((key) => !elsewhere.has(key.section) && key.kind !== "column");
         if (words.length === 0) {
             const found = important.map((name) => usable.find((key) => `${key.section}.${key.name}` === name)).filter((key) => key !== undefined);
             return [["", found]];

@@ -2,6 +2,7 @@
 #include <zlg/design/error.hpp>
 #include <zlg/deviations/series.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/mapping.hpp>
 
 #include "bind.hpp"
 
@@ -17,6 +18,7 @@ void bind_errors(py::module_& m) {
     };
     py::register_exception<config::ConfigError>(m, "ConfigError", also(PyExc_ValueError));
     py::register_exception<logs::FormatError>(m, "FormatError", also(PyExc_ValueError));
+    py::register_exception<logs::MappingError>(m, "MappingError", also(PyExc_ValueError));
     py::register_exception<logs::IoError>(m, "IoError", also(PyExc_OSError));
     py::register_exception<deviations::SeriesError>(m, "SeriesError", also(PyExc_ValueError));
     py::register_exception<design::DesignError>(m, "DesignError", also(PyExc_ValueError));

@@ -3,6 +3,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/imported.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/text_columns.hpp>
@@ -29,13 +30,15 @@ std::string kind(const std::string& path) {
     return "unknown";
 }
 
-py::dict read_raw(const std::string& path, bool light, const py::object& progress) {
+// `open` makes the reader.
+template <class Open>
+py::dict raw_columns(const std::string& path, const Open& open, bool light, const py::object& progress) {
     RawCollector rows;
     const Progress notify{progress};
     std::optional<logs::RawReader> reader;
     {
         const py::gil_scoped_release released;
-        reader.emplace(path);
+        reader.emplace(open());
         core::HalfRecord record;
         for (std::size_t n = 1; reader->next(record); ++n) {
             rows.add(record, light ? reader->light() : core::LightSamples{});
@@ -58,6 +61,51 @@ py::dict read_raw(const std::string& path, bool light, const py::object& progres
     columns["format_version"] = header.format_version;
     columns["complete"] = header.complete;
     return columns;
+}
+
+py::dict read_raw(const std::string& path, bool light, const py::object& progress) {
+    return raw_columns(
+        path, [&path] { return logs::RawReader{path}; }, light, progress);
+}
+
+py::dict axis_dict(logs::ImportedAxis& axis) {
+    py::dict d("name"_a = axis.name, "rate_hz"_a = axis.rate_hz, "doubts"_a = axis.doubts);
+    d["rates_arcsec_s"] = as_array(std::move(axis.rates_arcsec_s));
+    if (!axis.mode.empty()) d["mode"] = as_array(std::move(axis.mode));
+    if (!axis.phase_arcsec.empty()) d["phase_arcsec"] = as_array(std::move(axis.phase_arcsec));
+    return d;
+}
+
+// A file of another program as columns of a raw log, under "raw", or as axes.
+py::dict read_foreign(const std::string& path, const std::vector<std::pair<std::string, std::string>>& said,
+                      const std::vector<std::string>& axes, const py::object& progress) {
+    logs::ForeignLook look;
+    logs::ImportedRaw raw;
+    logs::ImportedAxes imported;
+    {
+        const py::gil_scoped_release released;
+        logs::Mapping mapping;
+        for (const auto& [key, value] : said) mapping.set(key, value, "zlg.read");
+        if (!axes.empty()) mapping.set_axes(axes);
+        look = logs::look_at_foreign(path, mapping);
+        if (look.makes == logs::Makes::raw)
+            raw = logs::imported_raw(look);
+        else
+            imported = logs::imported_axes(look);
+    }
+    std::vector<std::string> notes = look.table.notes;
+    for (const auto* some : {&look.said, &raw.notes, &imported.notes})
+        notes.insert(notes.end(), some->begin(), some->end());
+    py::dict d("notes"_a = notes, "raw"_a = py::none());
+    if (look.makes == logs::Makes::raw) {
+        const auto open = [&] { return logs::RawReader{path, raw.header, std::move(raw.rows)}; };
+        d["raw"] = raw_columns(path, open, false, progress);
+        return d;
+    }
+    py::list all;
+    for (logs::ImportedAxis& axis : imported.axes) all.append(axis_dict(axis));
+    d["axes"] = all;
+    return d;
 }
 
 void write_raw(const std::string& path, const py::dict& columns, const config::Settings& settings, double timer_hz,
@@ -162,6 +210,7 @@ void bind_logs(py::module_& m) {
     m.def("log_kind", &kind, "path"_a);
     m.def("read_raw", &read_raw, "path"_a, "light"_a, "progress"_a);
     m.def("write_raw", &write_raw, "path"_a, "columns"_a, "settings"_a, "timer_hz"_a, "force"_a, "progress"_a);
+    m.def("read_foreign", &read_foreign, "path"_a, "said"_a, "axes"_a, "progress"_a);
     m.def("read_angles", &read_angles, "path"_a, "progress"_a);
     m.def("write_angles", &write_angles, "path"_a, "columns"_a, "tick_s"_a, "settings"_a, "force"_a, "progress"_a);
     m.def("read_text_columns", &read_text, "path"_a, "columns"_a, "comment"_a, "skip_lines"_a, "separator"_a,

@@ -10,14 +10,14 @@ take `progress`, a function of the fraction done, and end on Ctrl-C, as `follow`
 """
 
 from . import _zlg, analysis, calibration, config, core, design, line, logs, rig, study, sweeps, twin
-from ._zlg import ConfigError, DesignError, Error, FormatError, IoError, SeriesError
+from ._zlg import ConfigError, DesignError, Error, FormatError, IoError, MappingError, SeriesError
 from .calibration import Calibration, calibrate
 from .config import Config
 from .line import follow
 from .logs import convert
 from .rig import simulate
 from .core import compensate
-from .study import RunResult, run
+from .study import RunResult, analyze, read, run
 from .sweeps import SobolIndices, read_sweep, sobol, sweep
 
 __version__: str = _zlg.version
@@ -30,11 +30,13 @@ __all__ = [
     "Error",
     "FormatError",
     "IoError",
+    "MappingError",
     "RunResult",
     "SeriesError",
     "SobolIndices",
     "__version__",
     "analysis",
+    "analyze",
     "calibrate",
     "calibration",
     "compensate",
@@ -45,6 +47,7 @@ __all__ = [
     "follow",
     "line",
     "logs",
+    "read",
     "read_sweep",
     "rig",
     "run",

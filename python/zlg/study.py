@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import importlib
+import os
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Optional
+from dataclasses import dataclass, field
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _zlg
-from ._columns import Progress, floats, made_of, signs
+from ._columns import Progress, floats, made_of, signs, warn_each
 from ._shown import Shown, axes_of, short, table_html
 from .analysis import Deviations, ModeSplit, NoiseFit
 from .config import Config, checked, resolved
-from .logs import AngleLog, RawLog, Switches
+from .logs import AngleLog, Path, RawLog, Switches, kind, read_angles, read_raw
 
 __all__ = [
     "Analysis",
@@ -31,6 +32,7 @@ __all__ = [
     "analyze",
     "axis_of_log",
     "paper",
+    "read",
     "run",
 ]
 
@@ -193,6 +195,12 @@ class Axis(Shown):
     bridged_arcsec_s: Optional[NDArray[np.float64]] = None
     #: three axes of one group stand at right angles
     group: str = ""
+    #: where angles were recorded: those, one more
+    phase_arcsec: Optional[NDArray[np.float64]] = None
+    #: values that may be no measurements, a line each
+    doubts: list[str] = field(default_factory=list)
+    #: what `zlg.read` understood of the file
+    notes: list[str] = field(default_factory=list)
 
 
 @dataclass(repr=False)
@@ -224,6 +232,8 @@ class AxisResult(Shown):
     modes: Optional[ModeSplit]
     #: of a switched gyro: mode +1, mode -1, and both with the magnetic part taken out
     mode_curves: list[Deviations]
+    #: as of the axis
+    doubts: list[str]
 
 
 @dataclass(repr=False)
@@ -253,6 +263,27 @@ def axis_of_log(log: AngleLog, name: str = "gyro") -> Axis:
     return Axis(name, 1.0 / log.tick_s, np.where(log.measured, rates, np.nan), log.mode, rates)
 
 
+def read(path: Path, progress: Progress = None, **said: Union[str, float, Sequence[Union[str, int]]]) -> Union[RawLog, AngleLog, list[Axis]]:
+    """A file of any program: a log of zlg as it is, another one by the rules of `zlg import`.
+
+    said  the keys of `zlg import --keys`: axis="gyro_z", unit="deg/s", rate_hz=100, ...
+    Returns a RawLog of a file with counts, for `compensate` and `calibrate`; else the axes, for `analyze`. Warns of values that may be no
+    measurements. Raises IoError; MappingError: what the file leaves open, with the keys that answer it; FormatError.
+    """
+    found = kind(path)
+    if not said and found != "unknown":
+        return read_raw(path, progress=progress) if found == "raw" else read_angles(path, progress)
+    axis = said.pop("axis", [])
+    axes = [axis] if isinstance(axis, (str, int, float)) else axis
+    pairs = [(key, str(value)) for key, value in said.items()]
+    columns = _zlg.read_foreign(os.fspath(path), pairs, [str(each) for each in axes], progress)
+    if columns["raw"] is not None:
+        return made_of(RawLog, columns["raw"])
+    read_axes = [made_of(Axis, dict(each, group=os.fspath(path), notes=columns["notes"])) for each in columns["axes"]]
+    warn_each(f"{os.fspath(path)}: {doubt}" for each in read_axes for doubt in each.doubts)
+    return read_axes
+
+
 def analyze(
     axes: Sequence[Axis],
     config: Optional[Config] = None,
@@ -270,5 +301,6 @@ def analyze(
     for axis in axes:
         mode = None if axis.mode is None else signs(axis.mode)
         bridged = None if axis.bridged_arcsec_s is None else floats(axis.bridged_arcsec_s)
-        records.add(axis.name, axis.group, axis.rate_hz, floats(axis.rates_arcsec_s), mode, bridged)
+        phase = None if axis.phase_arcsec is None else floats(axis.phase_arcsec)
+        records.add(axis.name, axis.group, axis.rate_hz, floats(axis.rates_arcsec_s), mode, bridged, phase, axis.doubts)
     return made_of(Analysis, _zlg.analyze(checked(config), records, settling_samples, threads, progress))

@@ -23,7 +23,6 @@ struct TellKind {
     void operator()(const Text&) const { info.kind = ValueKind::text; }
     void operator()(const RealList&) const { info.kind = ValueKind::reals; }
     void operator()(const Column&) const { info.kind = ValueKind::column; }
-    void operator()(const ColumnList&) const { info.kind = ValueKind::columns; }
     void operator()(const Interval&) const { info.kind = ValueKind::interval; }
     void operator()(const ChoiceList& slot) const {
         info.kind = ValueKind::choices;

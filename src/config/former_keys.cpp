@@ -10,8 +10,9 @@ namespace {
 
 constexpr std::string_view motion_is_learnt = "leave it out: the motion is learnt";
 constexpr std::string_view value_is_fixed = "leave it out: its default is what is done";
+constexpr std::string_view layout_is_mapped = "take --map with the same key";
 
-constexpr std::array<FormerKey, 32> formers{{
+constexpr std::array<FormerKey, 43> formers{{
     {"gyro", "coil_current", "", 3, "leave it out: the current is monitored, and not recorded"},
     {"switching", "after_step", "", 3, "leave it out: a switch waits for its time"},
     {"switching", "schedule", "growing", 3, "take switching.schedule = \"measured\""},
@@ -45,6 +46,17 @@ constexpr std::array<FormerKey, 32> formers{{
     {"analysis", "latitude_deg", "", 3,
      "leave it out: the Earth turns 15.041067 arcsec/s times sine of latitude about the vertical"},
     {"analysis", "table_same_rate_ratio", "", 3, value_is_fixed},
+    {"analysis", "column", "", 3, "take --map axis=COLUMN"},
+    {"analysis", "column_holds", "", 3, "take --map holds=rate, increment or angle"},
+    {"analysis", "scale_arcsec", "", 3, "take --map unit=..., or unit=counts with scale_arcsec=..."},
+    {"analysis", "rate_hz", "", 3, "take --map rate_hz=..., where no column of times says it"},
+    {"analysis", "comment", "", 3, layout_is_mapped},
+    {"analysis", "skip_lines", "", 3, layout_is_mapped},
+    {"analysis", "separator", "", 3, layout_is_mapped},
+    {"analysis", "decimal", "", 3, layout_is_mapped},
+    {"analysis", "time_column", "", 3, "take --map time=COLUMN, or time=none"},
+    {"analysis", "table_column", "", 3, "take --map table_rate=COLUMN"},
+    {"analysis", "table_scale_arcsec_s", "", 3, "take --map table_unit=..."},
 }};
 
 // Without blanks about it and the quotes of a text.

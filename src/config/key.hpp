@@ -98,11 +98,6 @@ struct Column {
     bool may_be_none = false;
 };
 
-// Any number of columns; one alone needs no array.
-struct ColumnList {
-    Place<std::vector<std::string>> value;
-};
-
 // [switching] interval_s: a number, or "optimal".
 struct Interval {
     Range range;
@@ -159,8 +154,7 @@ constexpr ChoiceList choice_list(std::span<const std::string_view> names) {
             }};
 }
 
-using Slot =
-    std::variant<Real, OptionalReal, Integer, Text, RealList, ChoiceList, Interval, Choice, Column, ColumnList>;
+using Slot = std::variant<Real, OptionalReal, Integer, Text, RealList, ChoiceList, Interval, Choice, Column>;
 
 struct Key {
     std::string_view section;

@@ -30,7 +30,6 @@ constexpr std::array<std::string_view, 9> deviations{"adev",  "oadev",  "mdev", 
                                                      "ohdev", "totdev", "mtotdev", "htotdev"};
 constexpr std::array<std::string_view, 3> tau_spacings{"octave", "decade", "all"};
 constexpr std::array<std::string_view, 4> shown_rates{"deg/h", "arcsec/s", "deg/s", "rad/s"};
-constexpr std::array<std::string_view, 3> text_holds{"increment", "rate", "phase"};
 
 constexpr std::array<std::string_view, 6> separators{"auto", "space", "tab", "semicolon", "comma", "bar"};
 constexpr std::array<std::string_view, 3> decimal_marks{"auto", "point", "comma"};
@@ -325,32 +324,6 @@ const Key table[] = {
      Real{at<&C::analysis, &Analysis::confidence>, {.min = 0.0, .max = 0.999999, .without_min = true}}},
     {"analysis", "unit", "", "of rates in text and report; JSON has arcsec/s",
      choice<&C::analysis, &Analysis::unit>(shown_rates)},
-    {"analysis", "column", "", "columns of a text file, by number from 1 or by name; unset: 1, but no column of times",
-     ColumnList{at<&C::analysis, &Analysis::column>}},
-    {"analysis", "column_holds", "",
-     "what the columns of a text file hold; unset: as [motion] describes them, if it does",
-     optional_choice<&C::analysis, &Analysis::column_holds>(text_holds)},
-    {"analysis", "scale_arcsec", "arcsec", "angle (or rate in arcsec/s) per unit of the columns",
-     Real{at<&C::analysis, &Analysis::scale_arcsec>, non_zero}},
-    {"analysis", "rate_hz", "Hz", "rows of the text file per second",
-     OptionalReal{at<&C::analysis, &Analysis::rate_hz>, {.min = 1e-12, .max = 1e12}}},
-    {"analysis", "comment", "", "lines of a text file that begin with this are skipped",
-     Text{at<&C::analysis, &Analysis::comment>}},
-    {"analysis", "skip_lines", "", "lines of numbers to skip at the head of a text file",
-     integer<&C::analysis, &Analysis::skip_lines>(0, int32_max)},
-    {"analysis", "separator", "",
-     "what parts the columns of a text file; auto: recognised, together with the decimal mark",
-     choice<&C::analysis, &Analysis::separator>(separators)},
-    {"analysis", "decimal", "", "decimal mark of a text file; auto: recognised, together with the separator",
-     choice<&C::analysis, &Analysis::decimal>(decimal_marks)},
-    {"analysis", "time_column", "",
-     "column with the time of each row, against which rate_hz is checked; 0: none; unset: looked for",
-     Column{at<&C::analysis, &Analysis::time_column>, true}},
-    {"analysis", "table_column", "",
-     "column with the rate of a rate table, by number or name; 0 or unset: the gyro stood on none",
-     Column{at<&C::analysis, &Analysis::table_column>, true}},
-    {"analysis", "table_scale_arcsec_s", "arcsec/s", "rate per unit of that column",
-     Real{at<&C::analysis, &Analysis::table_scale_arcsec_s>, non_zero}},
     {"analysis", "table_settling_s", "s", "beginning of each stage of the table that is left out",
      Real{at<&C::analysis, &Analysis::table_settling_s>, non_negative}},
     {"analysis", "table_earth_arcsec_s", "arcsec/s",

@@ -65,13 +65,6 @@ std::string column_text(const std::string& column) {
     return column.empty() || is_number(column) ? column : text::toml_string(column);
 }
 
-std::string columns_text(const std::vector<std::string>& columns) {
-    if (columns.size() == 1) return column_text(columns.front());
-    std::string text;
-    for (const std::string& column : columns) text += (text.empty() ? "[" : ", ") + column_text(column);
-    return text.empty() ? text : text + "]";
-}
-
 bool all_within(const Range& range, const std::vector<double>& values) {
     for (const double value : values) {
         if (!contains(range, value)) return false;
@@ -97,12 +90,7 @@ bool is_within(const Slot& slot, const Config& config) {
                      return config.switching.interval_optimal || contains(s.range, config.switching.interval_s);
                  },
                  [&](const Choice& s) { return s.get(config) < static_cast<int>(s.names.size()); },
-                 [&](const Column& s) { return s.value(config).empty() || is_column(s.value(config), s.may_be_none); },
-                 [&](const ColumnList& s) {
-                     const std::vector<std::string>& columns = s.value(config);
-                     return std::all_of(columns.begin(), columns.end(),
-                                        [](const std::string& column) { return is_column(column, false); });
-                 }},
+                 [&](const Column& s) { return s.value(config).empty() || is_column(s.value(config), s.may_be_none); }},
         slot);
 }
 
@@ -123,8 +111,7 @@ std::string value_text(const Key& key, const Config& config) {
             [&](const ChoiceList& s) { return choices_text(s, config); },
             [&](const Interval&) { return interval_text(config.switching); },
             [&](const Choice& s) { return choice_text(s, config); },
-            [&](const Column& s) { return column_text(s.value(config)); },
-            [&](const ColumnList& s) { return columns_text(s.value(config)); }},
+            [&](const Column& s) { return column_text(s.value(config)); }},
         key.slot);
 }
 
@@ -144,10 +131,7 @@ std::string allowed_text(const Key& key) {
             },
             [](const Interval& s) { return fmt::format("{}, or \"optimal\"", in_words(s.range)); },
             [](const Choice& s) { return fmt::format("\"{}\"", fmt::join(s.names.begin(), s.names.end(), "\", \"")); },
-            [](const Column& s) { return fmt::format("a number {}..1000000, or a name", s.may_be_none ? 0 : 1); },
-            [](const ColumnList&) {
-                return std::string{"one or an array, [] included, of numbers 1..1000000 and names"};
-            }},
+            [](const Column& s) { return fmt::format("a number {}..1000000, or a name", s.may_be_none ? 0 : 1); }},
         key.slot);
 }
 

@@ -89,13 +89,6 @@ struct Reader {
         return fmt::format("{}", static_cast<std::int64_t>(number));
     }
 
-    [[nodiscard]] std::vector<std::string> columns() const {
-        if (!node.is_array()) return {column(node)};
-        std::vector<std::string> each;
-        for (const toml::node& element : *node.as_array()) each.push_back(column(element));
-        return each;
-    }
-
     [[nodiscard]] std::vector<double> list() const {
         if (!node.is_array()) return {real(node)};
         std::vector<double> values;
@@ -116,7 +109,6 @@ struct Assign {
     void operator()(const RealList& slot) const { slot.value(config) = read.list(); }
 
     void operator()(const Column& slot) const { slot.value(config) = read.column(read.node); }
-    void operator()(const ColumnList& slot) const { slot.value(config) = read.columns(); }
 
     void operator()(const Interval&) const {
         Switching& switching = config.switching;

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <string_view>
 #include <zlg/logs/error.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "file_descriptor.hpp"
 
@@ -33,6 +35,8 @@ struct Signature {
 constexpr std::array signatures{
     Signature{"\x93NUMPY"sv, "a NumPy array (.npy)"},
     Signature{"MATLAB 5.0 MAT-file"sv, "a MATLAB 5 file (.mat)"},
+    Signature{"ULog\x01\x12\x35"sv, "a ULog of PX4 (.ulg); ulog2csv of pyulog makes text of it"},
+    Signature{"RDX"sv, "data of R (.rda)"},
     Signature{"PK\x03\x04"sv, "a ZIP archive, as .npz, .xlsx and .ods are"},
     Signature{"\x1f\x8b"sv, "compressed with gzip"},
     Signature{"BZh"sv, "compressed with bzip2"},
@@ -43,7 +47,7 @@ constexpr std::array signatures{
     Signature{"\xd0\xcf\x11\xe0"sv, "an Excel file of the old format (.xls)"},
     Signature{"\xff\xfe"sv, "text in UTF-16; save it as UTF-8"},
     Signature{"\xfe\xff"sv, "text in UTF-16; save it as UTF-8"},
-    Signature{"SQLite format 3"sv, "an SQLite database"},
+    Signature{"SQLite format 3"sv, "an SQLite database, as ROS 2 bags (.db3) are"},
     Signature{"PAR1"sv, "a Parquet file"},
     Signature{"ARROW1"sv, "an Arrow file"},
     Signature{"CDF\x01"sv, "a netCDF file"},
@@ -151,8 +155,14 @@ std::string foreign_nature(const std::string& path) {
         return fmt::format("HDF5 with a user block of {} bytes{}", offset,
                            head.text().starts_with("MATLAB 7.3") ? ", a MATLAB 7.3 file (.mat)" : "");
     if (offset == 0) return "HDF5";
-    for (const Signature& signature : signatures)
-        if (head.text().starts_with(signature.bytes)) return signature.nature;
+    const std::string suffix = zlg::text::lower_case(std::filesystem::path{path}.extension().string());
+    for (const Signature& signature : signatures) {
+        if (!head.text().starts_with(signature.bytes)) continue;
+        if (suffix == ".xlsx" || suffix == ".ods") return "a table of a spreadsheet (" + suffix + "); save it as CSV";
+        if (suffix == ".rda" || suffix == ".rdata")
+            return std::string{"data of R ("} + suffix + "); write.csv makes text of it";
+        return signature.nature;
+    }
     return head.text().find('\0') == std::string_view::npos ? std::string{} : nature_of_bytes(head);
 }
 

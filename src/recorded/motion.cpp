@@ -33,9 +33,7 @@ logs::TextLayout layout_of(const config::Motion& m) {
 }
 
 void refuse_times(const config::Motion& m, const logs::TextLayout& layout, const logs::TextTable& table) {
-    const std::string mistaken = logs::mistaken_times(
-        table, m.path, layout,
-        {.column_is_said = !m.column.empty(), .may_rise = false, .noun = "motion", .rate_hz = std::nullopt});
+    const std::string mistaken = logs::mistaken_times(table, m.path, layout, !m.column.empty(), "motion");
     if (!mistaken.empty()) throw ConfigError{mistaken};
     const logs::TimeCheck check = logs::check_times(table, m.path, layout, m.rate_hz);
     if (!check.contradiction.empty()) throw ConfigError{check.contradiction};

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace zlg::text {
 namespace {
 
@@ -85,7 +87,9 @@ std::string shortened(std::string text, std::size_t max_bytes) {
 }
 
 std::string excerpt(std::string_view text, std::size_t max_bytes, char replacement) {
-    std::string shown{text.substr(0, max_bytes)};
+    std::size_t end = std::min(max_bytes, text.size());
+    while (end > 0 && end < text.size() && continues(text[end])) --end;
+    std::string shown{text.substr(0, end)};
     for (char& c : shown)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = replacement;
     return text.size() > max_bytes ? shown + "..." : shown;

@@ -28,4 +28,21 @@ std::string lower_case(std::string_view text) {
     return lower;
 }
 
+std::string small_letters(std::string_view text) {
+    std::string lower = lower_case(text);
+    const auto at = [&lower](std::size_t k) { return static_cast<unsigned char>(lower[k]); };
+    for (std::size_t k = 0; k < lower.size(); ++k) {
+        if (k + 1 == lower.size() || (at(k) != 0xC3 && at(k) != 0xD0)) continue;
+        const unsigned next = at(k + 1);  // U+00C0..DE, U+0410..042F
+        if (at(k) == 0xC3 ? next >= 0x80 && next <= 0x9E && next != 0x97 : next >= 0x90 && next <= 0x9F)
+            lower[k + 1] = static_cast<char>(next + 0x20);
+        if (at(k) == 0xD0 && next >= 0xA0 && next <= 0xAF) {
+            lower[k] = '\xD1';
+            lower[k + 1] = static_cast<char>(next - 0x20);
+        }
+        ++k;
+    }
+    return lower;
+}
+
 }  // namespace zlg::text

@@ -8,7 +8,7 @@ import unittest
 
 from support import ROOT, CliTest, complaints, run
 
-TEXT = ["--set", "analysis.column_holds=rate", "--set", "analysis.rate_hz=10"]
+TEXT = ["--map", "axis=1", "--map", "holds=rate", "--map", "unit=arcsec/s", "--map", "rate_hz=10"]
 IMU = ROOT.parent / "shared" / "data" / "lasergyro.imu"
 
 
@@ -71,7 +71,7 @@ class Analyze(CliTest):
         rows = "".join(f"{a},{b},{c}\n" for a, b, c in zip(white(500, 1.0, 3.0, 1), white(500, 1.0, 4.0, 2), white(500, 1.0, 14.0, 3)))
         path = self.write("unit.csv", "# three axes\n" + rows)
         other = self.write("other.txt", lines(white(500, 1.0)))
-        result = self.json_of(path, *TEXT, "--set", "analysis.column=[1, 2, 3]")
+        result = self.json_of(path, *TEXT, "--map", "axis=[1, 2, 3]")
         self.assertEqual(len(result["axes"]), 3)
         self.assertAlmostEqual(result["earth"][0]["norm_arcsec_s"], math.sqrt(9 + 16 + 196), delta=0.3)
         self.assertEqual(len(self.json_of(other, path, *TEXT)["axes"]), 2)
@@ -181,15 +181,14 @@ class Analyze(CliTest):
             for _ in range(100):
                 rows.append(f"{rate!r} {(rate * 3600.0 * (1 + 50e-6) + 7.0 + generator.gauss(0.0, 1.0)) / 10.0!r}\n")
         path = self.write("table.txt", "".join(rows))
-        result = self.json_of(path, "--set", "analysis.column_holds=increment", "--set", "analysis.rate_hz=10", "--set",
-                              "analysis.column=2", "--set", "analysis.table_column=1", "--set", "analysis.table_scale_arcsec_s=3600")
+        said = ["--map", "axis=2", "--map", "holds=increment", "--map", "unit=arcsec", "--map", "rate_hz=10",
+                "--map", "table_rate=1", "--map", "table_unit=deg/s"]
+        result = self.json_of(path, *said)
         table = result["rate_tables"][0]
         self.assertEqual(len(table["stages"]), 7)
         self.assertAlmostEqual(table["scale_factor_units_arcsec"]["value"], 1 + 50e-6, delta=4 * table["scale_factor_units_arcsec"]["sigma"])
         self.assertLess(table["scale_factor_units_arcsec"]["sigma"], 1e-5)
         self.assertAlmostEqual(table["bias_arcsec_s"]["value"], 7.0, delta=4 * table["bias_arcsec_s"]["sigma"])
-        said = ["--set", "analysis.column_holds=increment", "--set", "analysis.rate_hz=10", "--set", "analysis.column=2",
-                "--set", "analysis.table_column=1", "--set", "analysis.table_scale_arcsec_s=3600"]
         with_earth = self.json_of(path, *said, "--set", "analysis.table_earth_arcsec_s=7")["rate_tables"][0]
         self.assertAlmostEqual(with_earth["bias_arcsec_s"]["value"], table["bias_arcsec_s"]["value"] - 7.0, places=6)
         self.assertIn("0 stages", self.refusal(3, path, *said, "--set", "analysis.table_settling_s=1e18"))
@@ -204,9 +203,12 @@ class Analyze(CliTest):
 
     def test_wrong_usage(self):
         path = self.write("rates.txt", lines(white(100, 1.0)))
-        self.assertIn("analysis.column_holds", self.refusal(2, path))
-        self.assertIn("analysis.rate_hz", self.refusal(2, path, "--set", "analysis.column_holds=rate"))
-        self.assertIn("analysis.rate_hz", self.refusal(2, path, "--set", "analysis.column_holds=rate", "--set", "analysis.rate_hz=0"))
+        for asked in ("--map unit=", "--map holds=", "--map rate_hz=", "zlg import"):
+            self.assertIn(asked, self.refusal(2, path))
+        self.assertIn("rate_hz = '0'", self.refusal(2, path, *TEXT, "--map", "rate_hz=0"))
+        for key in ("column", "column_holds", "scale_arcsec", "rate_hz", "comment", "skip_lines", "separator", "decimal", "time_column",
+                    "table_column", "table_scale_arcsec_s"):
+            self.assertIn("--map", self.refusal(2, path, *TEXT, "--set", f"analysis.{key}=1"))
         self.assertIn(".html", self.refusal(2, path, *TEXT, "--out", "page.pdf"))
         self.assertIn("analysis.deviations", self.refusal(2, path, *TEXT, "--set", "analysis.deviations=alan"))
         self.assertIn("analysis.deviations", self.refusal(2, path, *TEXT, "--set", "analysis.deviations=[]"))
@@ -214,11 +216,8 @@ class Analyze(CliTest):
 
     @unittest.skipUnless(IMU.exists(), "no recording of a real laser gyro beside the project")
     def test_a_real_unit_sees_the_earth_turn(self):
-        result = self.json_of(IMU, "--set", "analysis.column_holds=increment", "--set", "analysis.scale_arcsec=0.1", "--set",
-                              "analysis.rate_hz=100", "--set", "analysis.comment=%", "--set", "analysis.skip_lines=3", "--set",
-                              "analysis.column=[1, 2, 3]")
+        said = ["--map", "holds=increment", "--map", "unit=arcsec", "--map", "scale=0.1", "--map", "rate_hz=100", "--map", "comment=%",
+                "--map", "skip_lines=3"]
+        result = self.json_of(IMU, *said, "--map", "axis=[1, 2, 3]")
         self.assertEqual([axis["samples"] for axis in result["axes"]], [184718] * 3)
         self.assertAlmostEqual(result["earth"][0]["norm_arcsec_s"], 14.86, delta=0.02)
-        by_motion = self.json_of(IMU, "--set", "motion.scale_arcsec=0.1", "--set", "motion.comment=%", "--set",
-                                 "motion.skip_lines=3", "--set", "motion.column=3")
-        self.assertEqual(by_motion["axes"][0]["mean_rate_arcsec_s"], result["axes"][2]["mean_rate_arcsec_s"])

@@ -324,23 +324,20 @@ class Cost(Hostile):
 class Sizes(Hostile):
     """Numbers that nobody measures: each is refused with its file, its row and the reason, or shown whole."""
 
-    TEXT = ["--set", "analysis.rate_hz=10", "--set"]
+    TEXT = ["--map", "axis=1", "--map", "time=none", "--map", "rate_hz=10"]
 
     def test_of_samples(self):
-        for holds in ("rate", "increment", "phase"):
+        for holds in ("rate", "increment", "angle"):
+            said = [*self.TEXT, "--map", f"holds={holds}", "--map", "unit=arcsec/s" if holds == "rate" else "unit=arcsec"]
             for value in ("1e308", "1e200"):
                 path = self.write("large.txt", "".join(f"{k % 7}\n" for k in range(300)) + f"{value}\n" + "1\n2\n")
-                self.refuse_quickly(3, "analyze", path, *self.TEXT, f"analysis.column_holds={holds}",
-                                    says=["large.txt", "sample 301", "overflow"])
+                self.refuse_quickly(3, "analyze", path, *said, says=["large.txt", "row 301", "1e90"])
             path = self.write("small.txt", "".join(f"{k * k % 7}e-200\n" for k in range(300)))
-            self.refuse_quickly(3, "analyze", path, *self.TEXT, f"analysis.column_holds={holds}",
-                                says=["small.txt", "differ by", "too small"])
+            self.refuse_quickly(3, "analyze", path, *said, says=["small.txt", "differ by", "too small"])
 
     def test_of_a_rate_of_rows(self):
         path = self.write("rows.txt", "".join(f"{k * k % 7}\n" for k in range(300)))
         for rate in ("1e300", "1e-300", "1e100", "1e-100", "1e13", "1e-13"):
-            self.refuse_quickly(2, "analyze", path, "--set", "analysis.column_holds=rate", "--set", f"analysis.rate_hz={rate}",
-                                says=["analysis.rate_hz", "1e-12..1e"])
             self.refuse_quickly(3, "analyze", path, "--map", "axis=1", "--map", "time=none", "--map", "holds=rate", "--map", "unit=deg/s",
                                 "--map", f"rate_hz={rate}", says=["rows.txt", "samples a second", "1e-12..1e+12"])
 
@@ -348,12 +345,13 @@ class Sizes(Hostile):
         generator = random.Random(3)
         for scale, rate in ((1e28, 1e-12), (1e-28, 1e12), (1e17, 1e12), (1e-17, 1e-12)):
             path = self.write("rows.txt", "".join(f"{scale * generator.gauss(0.0, 1.0):.9g}\n" for k in range(300)))
-            for holds in ("rate", "increment", "phase"):
-                result = run("analyze", path, "--set", f"analysis.column_holds={holds}", "--set", f"analysis.rate_hz={rate}")
+            for holds in ("rate", "increment", "angle"):
+                result = run("analyze", path, *self.TEXT, "--map", f"holds={holds}", "--map", f"rate_hz={rate}", "--map",
+                             "unit=arcsec/s" if holds == "rate" else "unit=arcsec")
                 self.assertIn(result.returncode, (0, 3), result.stderr)
                 self.assertNotIn("boost", result.stderr)
         path = self.write("rows.txt", "".join(f"{1e-60 * generator.gauss(0.0, 1.0):.9g}\n" for k in range(300)))
-        self.refuse_quickly(3, "analyze", path, *self.TEXT, "analysis.column_holds=rate", says=["differ by", "1e-30"])
+        self.refuse_quickly(3, "analyze", path, *self.TEXT, "--map", "holds=rate", "--map", "unit=arcsec/s", says=["differ by", "1e-30"])
 
     def test_of_faults(self):
         def faults(n, at_s, duration_s):

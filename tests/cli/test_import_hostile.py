@@ -240,7 +240,7 @@ class Text(Hostile):
             with self.subTest(name):
                 path = self.write(name, data)
                 self.cheap("import", path, code=code)
-                self.cheap("analyze", path, "--set", 'analysis.column_holds="rate"', "--set", "analysis.rate_hz=100", code=code)
+                self.cheap("analyze", path, "--map", "holds=rate", "--map", "rate_hz=100", code=code)
         self.assertIn("one row", self.cheap("import", self.write("row.txt", "1.5 2.5 3.5\n"), code=3).stderr)
 
     def test_a_log_of_many_names(self):
@@ -255,8 +255,7 @@ class Text(Hostile):
             if code:
                 for said in ("row 31", "from 30 to 1", "time=none"):
                     self.assertIn(said, result.stderr)
-            analysed = self.cheap("analyze", path, "--set", 'analysis.column_holds="rate"', "--set", "analysis.rate_hz=1", "--set",
-                                  "analysis.column=2", code=code)
+            analysed = self.cheap("analyze", path, *W, code=code)
             self.assertTrue(not code or "row 31" in analysed.stderr, analysed.stderr)
         self.angles(path, *W, *FIXED_RATE, rows=60)
 

@@ -161,13 +161,11 @@ class OfALaboratory(Bench):
         self.mean(self.table("one.csv", "t_s,sensor,w_dph", self.t, ["1"] * 400, self.w), *self.DPH)
 
     def test_times_that_do_not_rise_are_not_passed_over(self):
-        wrapped = [(2**32 - 2_000_000 + 10_000 * k) % 2**32 for k in range(400)]
         said = [*self.DPH, "--map", "rate_hz=100"]
-        for name, times in (("t_us", wrapped), ("t_s", self.t[::-1])):
-            path = self.table("back.csv", f"{name},w_dph", times, self.w)
-            self.refused(path, *said, code=2, says=(name, "time=none"))
-            self.mean(path, *said, "--map", "time=none")
-            self.refused(path, *said, "--map", "time=1", says=("do not go back", "--map time=none"))
+        path = self.table("back.csv", "t_s,w_dph", self.t[::-1], self.w)
+        self.refused(path, *said, code=2, says=("t_s", "time=none"))
+        self.mean(path, *said, "--map", "time=none")
+        self.refused(path, *said, "--map", "time=1", says=("do not go back", "--map time=none"))
 
     def test_numbers_of_rows_show_what_is_missing(self):
         keep = [k for k in range(400) if not 100 <= k < 150]

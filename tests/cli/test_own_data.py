@@ -8,7 +8,7 @@ import h5py
 
 from support import SAID, CliTest, csv_text, quiet_log, run, warnings
 
-RATE = ["--set", "analysis.column_holds=rate", "--set", "analysis.rate_hz=100"]
+RATE = ["--map", "holds=rate", "--map", "unit=arcsec/s", "--map", "rate_hz=100"]
 
 
 class OwnTables(CliTest):
@@ -22,37 +22,35 @@ class OwnTables(CliTest):
 
     def test_an_ambiguous_table_names_both_readings_and_what_decides(self):
         path = self.write("one.csv", "".join(f"0,{int(4000 + k * 37 % 100):06d}\n" for k in range(50)))
-        self.refuse(3, "analyze", path, *RATE, says=("separator comma", "decimal comma", "analysis.separator", "analysis.decimal"))
-        mean, _ = self.mean_of(path, *RATE, "--set", "analysis.decimal=comma")
+        self.refuse(2, "analyze", path, *RATE, says=("separator comma", "decimal comma", "--map separator", "--map decimal"))
+        mean, _ = self.mean_of(path, *RATE, "--map", "decimal=comma")
         self.assertAlmostEqual(mean, sum(4000 + k * 37 % 100 for k in range(50)) / 50e6, delta=1e-12)
 
     def test_a_column_of_times_is_no_rate_by_default(self):
-        rows = [f"{k / 100:.2f},{rate:.6f},{20 + k % 3}" for k, rate in enumerate(self.rates())]
-        path = self.write("lab.csv", "time,gyro_z_dps,temp\n" + "\n".join(rows) + "\n")
-        self.refuse(2, "analyze", path, *RATE, says=("analysis.column", "'time'", "'gyro_z_dps'", "'temp'"))
+        rows = [f"{k / 100:.2f},{rate:.6f},{20 + k % 3 / 10}" for k, rate in enumerate(self.rates())]
+        path = self.write("lab.csv", "time,gyro_z,temp\n" + "\n".join(rows) + "\n")
+        self.refuse(2, "analyze", path, *RATE, says=("--map axis=COLUMN, of 'gyro_z', 'temp'",))
         bare = self.write("bare.csv", "\n".join(rows) + "\n")
-        self.refuse(2, "analyze", bare, *RATE, says=("analysis.column", "column 1", "2..3"))
-        for holds in ("increment", "phase"):
-            self.refuse(2, "analyze", bare, "--set", f"analysis.column_holds={holds}", "--set", "analysis.rate_hz=100",
-                        says=("analysis.column",))
-        self.mean_of(bare, *RATE, "--set", "analysis.column=1")
+        self.refuse(2, "analyze", bare, *RATE, says=("--map axis=COLUMN, of 2, 3",))
+        self.refuse(2, "analyze", bare, *RATE, "--map", "axis=1", says=("axis = 1", "times of the rows"))
         angle = self.write("angle.txt", "".join(f"{0.15 * k!r}\n" for k in range(200)))
-        mean, _ = self.mean_of(angle, "--set", "analysis.column_holds=phase", "--set", "analysis.rate_hz=100")
+        mean, _ = self.mean_of(angle, "--map", "axis=1", "--map", "time=none", "--map", "holds=angle", "--map", "unit=arcsec", "--map",
+                               "rate_hz=100")
         self.assertAlmostEqual(mean, 15.0, delta=1e-9)
 
     def test_times_of_rows_are_held_against_the_rate(self):
         rates = self.rates()
         rows = [f"{k / 100:.2f},{rate:.6f}" for k, rate in enumerate(rates)]
         path = self.write("lab.csv", "time,w\n" + "\n".join(rows) + "\n")
-        said = ["--set", "analysis.column=w", "--set", "analysis.column_holds=rate"]
-        self.refuse(2, "analyze", path, *said, "--set", "analysis.rate_hz=200", says=("analysis.rate_hz = 200", "100 Hz"))
-        self.refuse(2, "analyze", path, *said, says=("analysis.rate_hz", "100 Hz"))
-        self.mean_of(path, *said, "--set", "analysis.rate_hz=200", "--set", "analysis.time_column=0")
+        said = ["--map", "axis=w", "--map", "holds=rate", "--map", "unit=arcsec/s"]
+        self.refuse(2, "analyze", path, *said, "--map", "rate_hz=200", says=("100 Hz", "0.005 s", "time=none"))
+        self.refuse(2, "analyze", path, *said, says=("time_unit=s", "100 Hz"))
+        self.mean_of(path, *said, "--map", "rate_hz=200", "--map", "time=none")
         holes = self.write("holes.csv", "time,w\n" + "\n".join(rows[:100] + rows[120:]) + "\n")
-        result = run("analyze", holes, *said, "--set", "analysis.rate_hz=100", "--json")
+        result = run("analyze", holes, *said, "--map", "rate_hz=100", "--json")
         axis = json.loads(result.stdout)["axes"][0]
         self.assertEqual((axis["samples"], axis["known"], axis["gaps"]), (400, 380, 1))
-        self.assertIn("20 rows are missing", warnings(result)[0])
+        self.assertIn("20 rows are missing", result.stderr)
 
 
 class OwnLogs(CliTest):

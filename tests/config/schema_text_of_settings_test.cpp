@@ -39,9 +39,7 @@ Config any_config() {
     c.motion.comment = *rc::gen::container<std::string>(rc::gen::inRange<char>(1, 127));
     c.motion.column = *rc::gen::element<std::string>("", "1", "12", "gyro z", "a,b");
     c.motion.separator = *rc::gen::element(TextSeparator::automatic, TextSeparator::tab, TextSeparator::comma);
-    c.analysis.column =
-        *rc::gen::container<std::vector<std::string>>(rc::gen::element<std::string>("3", "gyro_z", "\"x\""));
-    c.analysis.time_column = *rc::gen::element<std::string>("", "0", "7", "Zeit [s]");
+    c.motion.time_column = *rc::gen::element<std::string>("", "0", "7", "Zeit [s]");
     c.motion.path = *rc::gen::element<std::string>("", "a b.txt", "\"quoted\"", "back\\slash", "\xCE\xA9.txt", "#");
     return c;
 }
@@ -79,8 +77,7 @@ RC_GTEST_PROP(Schema, SettingsAndTomlReadBackToTheSameConfiguration, ()) {
         RC_ASSERT(read.motion.path == config.motion.path);
         RC_ASSERT(read.motion.column == config.motion.column);
         RC_ASSERT(read.motion.separator == config.motion.separator);
-        RC_ASSERT(read.analysis.column == config.analysis.column);
-        RC_ASSERT(read.analysis.time_column == config.analysis.time_column);
+        RC_ASSERT(read.motion.time_column == config.motion.time_column);
         RC_ASSERT(read.faults.kind == config.faults.kind);
         RC_ASSERT(read.faults.random_kinds == config.faults.random_kinds);
     }

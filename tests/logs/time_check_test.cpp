@@ -13,8 +13,7 @@ TextTable table_of(std::vector<std::string> names, std::int64_t n_columns, std::
 }
 
 std::string mistaken(const TextTable& table, bool column_is_said = false) {
-    return mistaken_times(table, "a.csv", {.columns = {"1"}},
-                          {.column_is_said = column_is_said, .may_rise = false, .noun = "rate", .rate_hz = 100.0});
+    return mistaken_times(table, "a.csv", {.columns = {"1"}}, column_is_said, "rate");
 }
 
 TEST(TimeCheck, a_column_of_times_that_nobody_asked_for_is_named_with_the_others) {

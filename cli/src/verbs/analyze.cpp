@@ -91,6 +91,9 @@ void analyze(const AnalyzeOptions& options) {
         outputs.push_back({options.imu_yaml, noise::imu_yaml(study::kalibr_gyro(result.axes))});
     write_all(outputs, options.force);
     print(options.json ? pretty(analysis_json(result)) : report::text(page));
+    std::size_t n_doubts = 0;
+    for (const study::AxisResult& axis : result.axes) n_doubts += axis.doubts.size();
+    refuse_doubts(options, n_doubts);
 }
 
 }  // namespace
@@ -99,12 +102,15 @@ void add_analyze(CLI::App& program) {
     const auto options = std::make_shared<AnalyzeOptions>();
     CLI::App* verb = program.add_subcommand(
         "analyze", "Allan deviations, noise terms, drift by mode and errors of switches of recorded gyros");
-    verb->add_option("FILE", options->files, "angle logs, raw logs, or text files of columns")->required();
+    verb->add_option("FILE", options->files,
+                     "angle logs, raw logs, or files of other programs (zlg import says what one of those is)")
+        ->required();
     verb->add_option("--threads", options->threads, "1..64 (2)")->check(CLI::Range(1, 64).description(""));
     verb->add_option("--imu-yaml", options->imu_yaml, "write the noise as Kalibr's imu.yaml");
     verb->add_option("--compare", options->compare,
                      "an imu.yaml whose noise is printed, and drawn by --out, beside the measured one");
     add_mapping_options(*verb, *options);
+    add_strict_option(*verb, *options);
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->callback([options] { analyze(*options); });

@@ -23,8 +23,10 @@ namespace zlg::cli {
 namespace {
 
 struct ImportOptions : Options {
-    std::string file;
+    std::vector<std::string> files;
     std::string write_mapping;
+
+    [[nodiscard]] const std::string& file() const { return files.front(); }
 };
 
 std::string text_of(const logs::ForeignLook& look) {
@@ -60,10 +62,6 @@ nlohmann::json json_of(const logs::ForeignLook& look) {
             {"makes", look.makes == logs::Makes::raw ? "raw" : "angles"}};
 }
 
-void note_all(const ImportOptions& options, const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) complain(fmt::format("note: {}: {}", name_of_file(options.file), note));
-}
-
 // A log whose tick or scale the readers refuse is none.
 void require_readable(const ImportOptions& options, const config::Settings& settings) {
     config::Config config;
@@ -76,11 +74,11 @@ void require_readable(const ImportOptions& options, const config::Settings& sett
 
 std::size_t write_raw(const ImportOptions& options, const logs::ForeignLook& look) {
     const logs::ImportedRaw made = logs::imported_raw(look);
-    note_all(options, made.notes);
+    note_all(options.file(), made.notes);
     require_readable(options, made.header.settings);
     const Interruptible interruptible;
     // Read once through the rules of a raw log, which name what is wrong.
-    logs::RawReader rows{options.file, made.header, made.rows};
+    logs::RawReader rows{options.file(), made.header, made.rows};
     logs::RawWriter log{options.out, made.header.settings, options.force, made.header, {}};
     core::HalfRecord row;
     while (rows.next(row)) {
@@ -91,15 +89,18 @@ std::size_t write_raw(const ImportOptions& options, const logs::ForeignLook& loo
     return made.rows.size();
 }
 
-std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& look) {
+std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& look,
+                         std::vector<std::string>& doubts) {
     const logs::ImportedAxes made = logs::imported_axes(look);
     if (made.axes.size() != 1)
         throw UsageError{
             fmt::format("{}: {} axes; an angle log holds one: --map axis=COLUMN (zlg analyze takes several)",
-                        options.file, made.axes.size())};
-    note_all(options, made.notes);
+                        options.file(), made.axes.size())};
+    note_all(options.file(), made.notes);
     const logs::ImportedAxis& axis = made.axes.front();
-    complain(fmt::format("note: {}: {}, {}", name_of_file(options.file), axis.name, axis.holds));
+    doubts = axis.doubts;
+    note_all(options.file(), doubts);
+    complain(fmt::format("note: {}: {}, {}", name_of_file(options.file()), axis.name, axis.holds));
     const double tick_s = 1.0 / axis.rate_hz;
     const config::Settings settings{{"gyro.tick_s", fmt::format("{}", tick_s)}};
     require_readable(options, settings);
@@ -117,19 +118,20 @@ std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& 
 void import(const ImportOptions& options) {
     if (!options.out.empty()) {
         (void)log_format(options.out);
-        refuse_own_input(options.file, options.out);
+        for (const std::string& file : options.files) refuse_own_input(file, options.out);
     }
     if (!options.write_mapping.empty()) {
         require_suffix(options.write_mapping, ".toml");
-        refuse_own_input(options.file, options.write_mapping, "--write-mapping");
+        for (const std::string& file : options.files) refuse_own_input(file, options.write_mapping, "--write-mapping");
     }
-    const logs::ForeignLook look = look_at(options, options.file);
+    const logs::ForeignLook look = look_at(options, options.files);
     std::size_t rows = 0;
+    std::vector<std::string> doubts;
     if (!options.out.empty()) {
         logs::require_whole(look);
-        for (const std::string& note : look.table.notes) complain(fmt::format("note: {}", note));
-        note_all(options, look.said);
-        rows = look.makes == logs::Makes::raw ? write_raw(options, look) : write_angles(options, look);
+        note_all(options.file(), look.table.notes);
+        note_all(options.file(), look.said);
+        rows = look.makes == logs::Makes::raw ? write_raw(options, look) : write_angles(options, look, doubts);
     }
     if (!options.write_mapping.empty()) {
         std::string toml = look.mapping.toml();
@@ -140,10 +142,12 @@ void import(const ImportOptions& options) {
         nlohmann::json json = json_of(look);
         json["out"] = options.out.empty() ? nlohmann::json(nullptr) : nlohmann::json(options.out);
         json["rows"] = rows;
+        json["doubts"] = doubts;
         print(pretty(json));
     } else {
         print(options.out.empty() ? text_of(look) : fmt::format("{}: {} rows\n", printable(options.out), rows));
     }
+    refuse_doubts(options, doubts.size());
 }
 
 void print_mapping_keys() {
@@ -158,9 +162,12 @@ void add_import(CLI::App& program) {
     CLI::App* verb = program.add_subcommand(
         "import",
         "a file of another program as a log; without --out it only says what it understood, and what is missing");
-    verb->add_option("FILE", options->file, "text, HDF5, MATLAB, NumPy, rows of doubles, MCAP, or a ROS 1 bag")
+    verb->add_option("FILE", options->files,
+                     "text, HDF5, MATLAB, NumPy, rows of doubles, MCAP, or a ROS 1 bag; several are one record, in "
+                     "their order")
         ->required();
     add_mapping_options(*verb, *options);
+    add_strict_option(*verb, *options);
     verb->add_option("--write-mapping", options->write_mapping,
                      "write what was said and understood as TOML, for --mapping of process, analyze and calibrate");
     verb->add_flag_callback("--keys", print_mapping_keys, "every key of a mapping")->trigger_on_parse();

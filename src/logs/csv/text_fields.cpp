@@ -139,8 +139,15 @@ std::optional<Number> number_of(std::string_view text, Mark mark) {
 }
 
 bool says_missing(std::string_view text) {
-    constexpr std::array<std::string_view, 7> words{"nan", "-nan", "na", "n/a", "null", "#n/a", "#nv"};
-    return text.empty() || std::find(words.begin(), words.end(), text::lower_case(text)) != words.end();
+    constexpr auto words = std::to_array<std::string_view>(
+        {"nan", "-nan", "na", "n/a", "null", "none", "#n/a", "#nv", "#div/0!", "#value!", "nan(ind)", "-nan(ind)"});
+    if (text.empty()) return true;
+    // Numbers begin most fields. Microsoft's runtime writes 1.#QNAN, -1.#IND, 1.#INF.
+    if (is_digit(text.front()) || (text.size() > 1 && is_digit(text[1]))) {
+        if (text.front() == '-') text.remove_prefix(1);
+        return text.starts_with("1.#");
+    }
+    return std::find(words.begin(), words.end(), text::lower_case(text)) != words.end();
 }
 
 FieldKind kind_of(const Field& field, Mark mark) {

@@ -31,7 +31,7 @@ struct Number {
 // A finite number with that decimal mark, with either where none is given. A comma has a digit on either side.
 [[nodiscard]] std::optional<Number> number_of(std::string_view text, Mark mark);
 
-// Empty, nan, NA, null, in any case.
+// Empty, nan, NA, null in any case, or what another runtime writes for what is no number.
 [[nodiscard]] bool says_missing(std::string_view text);
 
 enum class FieldKind { number, missing, broken, word };

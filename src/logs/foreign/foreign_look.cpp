@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <zlg/logs/imported.hpp>
@@ -11,6 +12,7 @@
 #include <zlg/text/escape.hpp>
 #include <zlg/text/spelling.hpp>
 
+#include "mixed_rows.hpp"
 #include "row_clock.hpp"
 #include "units.hpp"
 
@@ -79,7 +81,7 @@ bool take_axis(ForeignLook& look, std::int64_t times) {
     std::vector<const ForeignColumn*> numbers, rates;
     for (const ForeignColumn& column : look.table.columns) {
         const bool may_be_read = column.is_number || !column.word.empty();
-        if (!may_be_read || column.number == times || is_constant(column)) continue;
+        if (!may_be_read || column.is_part || column.number == times || is_constant(column)) continue;
         if (rises_as_time(column.values) && look.mapping.text("holds") != "angle") continue;
         numbers.push_back(&column);
         if (!names_rate(column.name)) continue;
@@ -126,6 +128,38 @@ void check_unit(ForeignLook& look, const ForeignColumn& column, std::optional<An
     if (!is_later) unit = named;
 }
 
+// A line of a head that says what a number is worth, as much as a message holds; empty: it says nothing. That of an
+// accelerometer is of no gyro.
+std::string scale_in(const std::string& line) {
+    constexpr auto words =
+        std::to_array<std::string_view>({"gscale", "gyroscale", "gyro_scale", "scale", "scale_factor", "scalefactor",
+                                         "sensitivity", "lsb", "resolution", "skalierung", "empfindlichkeit"});
+    const std::string small = text::lower_case(line);
+    if (small.find_first_of("0123456789") == std::string::npos) return {};
+    const auto is_letter = [&small](std::size_t at) {
+        return at < small.size() && (std::isalpha(static_cast<unsigned char>(small[at])) != 0 || small[at] == '_');
+    };
+    for (const std::string_view word : words)
+        for (std::size_t at = small.find(word); at != std::string::npos; at = small.find(word, at + 1))
+            if ((at == 0 || !is_letter(at - 1)) && !is_letter(at + word.size()) &&
+                small.substr(at < 5 ? 0 : at - 5, 5) != "full ")
+                return text::excerpt(line, 60, ' ');
+    return {};
+}
+
+// Where whole numbers are the axis: what may say that they are in no unit.
+std::string scale_in_words(const ForeignLook& look) {
+    const auto axes = look.mapping.axes();
+    if (axes.empty()) return {};
+    const ForeignColumn& column = column_named(look.table, axes.front());
+    if (!all_of_known(column, [](double v) { return v == std::floor(v); })) return {};
+    if (text::lower_case(column.name).find("lsb") != std::string::npos)
+        return fmt::format("'{}' says LSB", text::excerpt(column.name, 60, ' '));
+    for (const std::string& line : look.table.head)
+        if (const std::string scale = scale_in(line); !scale.empty()) return fmt::format("its head has '{}'", scale);
+    return {};
+}
+
 void check_axes(ForeignLook& look, std::int64_t times) {
     const bool names_say = look.mapping.has("axis") || take_axis(look, times);
     const Mapping& m = look.mapping;
@@ -143,6 +177,9 @@ void check_axes(ForeignLook& look, std::int64_t times) {
         look.mapping.set("unit", std::string{unit->name}, "names");
         look.said.push_back(fmt::format("its unit is {}, by its name", unit->name));
     }
+    for (const std::string& line : look.table.head)
+        if (m.axes().empty() && !scale_in(line).empty())
+            look.said.push_back(fmt::format("its head has '{}'", scale_in(line)));
     // Of an axis that is still to be chosen its name will say it.
     const bool is_open = m.axes().empty() && names_say;
     if (!unit && !is_open) {
@@ -150,6 +187,15 @@ void check_axes(ForeignLook& look, std::int64_t times) {
             m.axes().empty() ? "" : "of " + described(column_named(look.table, m.axes().front())) + "; ";
         look.missing.push_back(fmt::format("unit=... ({}{})", of, allowed_units()));
     }
+    if (!m.has("scale") && !(unit && unit->of_counts))
+        if (const std::string in = scale_in_words(look); !in.empty())
+            look.missing.push_back(
+                fmt::format("scale=... (what a number is multiplied by to be in its unit; {}), or "
+                            "scale=1 where it stands for itself",
+                            in));
+    if (m.has("table_rate") && !m.has("table_unit") &&
+        !unit_in_name(column_named(look.table, m.text("table_rate")).name))
+        look.missing.push_back("table_unit=... (of the rate table's rate)");
     if (!m.has("holds") && !is_open) {
         if (unit && unit->kind == UnitKind::rate)
             look.mapping.set("holds", "rate", "names");
@@ -161,38 +207,18 @@ void check_axes(ForeignLook& look, std::int64_t times) {
     if (const std::string clock = missing_of_clock(look.table, m); !clock.empty()) look.missing.push_back(clock);
 }
 
-// Rows of several sensors by turns are no samples of one.
-void refuse_mixed_rows(const ForeignLook& look) {
-    constexpr std::array<std::string_view, 12> names{"id",     "sensor",    "sensor_id", "sensorid",
-                                                     "device", "device_id", "channel",   "kanal",
-                                                     "node",   "can_id",    "axis",      "achse"};
-    constexpr std::size_t most_sensors = 16;
-    for (const ForeignColumn& column : look.table.columns) {
-        if (std::ranges::find(names, text::lower_case(column.name)) == names.end()) continue;
-        std::string other = column.other;
-        if (column.is_number) {
-            std::vector<double> known;
-            std::ranges::copy_if(column.values, std::back_inserter(known), [](double v) { return std::isfinite(v); });
-            std::ranges::sort(known);
-            known.erase(std::unique(known.begin(), known.end()), known.end());
-            if (known.size() < 2 || known.size() > most_sensors) continue;
-            other = fmt::format("{}", column.values.front() == known.front() ? known.back() : known.front());
-        }
-        if (other.empty() || column.holds_dates) continue;
-        throw MappingError(fmt::format(
-            "{}, {}: is {} in some rows and {} in others; allowed are the rows of one sensor, parted before",
-            look.table.path, described(column), column.first, other));
-    }
-}
-
 // Keys that only the other kind of import reads.
 void refuse_idle_keys(const ForeignLook& look) {
     constexpr std::array<std::string_view, 4> of_raw{"tick_s", "timer_hz", "mode_plus", "bias_sign_plus"};
-    constexpr std::array<std::string_view, 3> of_axes{"axis", "holds", "unit"};
+    constexpr std::array<std::string_view, 6> of_axes{"axis", "holds", "unit", "scale", "table_rate", "table_unit"};
     const bool is_raw = look.makes == Makes::raw;
+    const std::vector<std::string> columns = look.mapping.raw_columns();
+    const bool has_mode = std::ranges::find(columns, look.mapping.text("mode")) != columns.end();
     for (const std::string& key : look.mapping.keys_set()) {
-        const bool is_idle = is_raw ? std::ranges::find(of_axes, key) != of_axes.end()
-                                    : is_raw_key(key) || std::ranges::find(of_raw, key) != of_raw.end();
+        const bool is_of_axes = std::ranges::find(of_axes, key) != of_axes.end();
+        const bool is_of_raw = is_raw_key(key) || std::ranges::find(of_raw, key) != of_raw.end();
+        const bool is_mode = has_mode && (key == "mode" || key == "mode_plus");
+        const bool is_idle = is_raw ? is_of_axes : is_of_raw && !is_mode;
         if (is_idle)
             throw MappingError(
                 fmt::format("{}: {} = {} is {}; allowed is {}", look.table.path, key,
@@ -221,7 +247,7 @@ ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
     }
     if (std::string open = open_times(look.table, look.mapping); !open.empty())
         look.missing.insert(look.missing.begin(), std::move(open));
-    if (look.missing.empty()) refuse_unused_times(look.table, said);
+    if (look.missing.empty()) std::ranges::copy(unused_times(look.table, look.mapping), std::back_inserter(look.said));
     return look;
 }
 
@@ -230,7 +256,7 @@ void require_whole(const ForeignLook& look) {
     if (look.missing.empty()) return;
     std::string all;
     for (const std::string& one : look.missing) all += fmt::format("{}--map {}", all.empty() ? "" : "; ", one);
-    throw MappingError(fmt::format("{}: is missing: {}", look.table.path, all));
+    throw MappingError(fmt::format("{}: is missing: {} (zlg import FILE shows its columns)", look.table.path, all));
 }
 
 }  // namespace zlg::logs

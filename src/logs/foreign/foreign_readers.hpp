@@ -31,6 +31,9 @@ struct ForeignArray {
     std::function<std::vector<double>(std::size_t n_rows, bool is_used)> read;
 };
 
+// Adds a column of the times whose seconds and fractions stand in two; the first such pair.
+void join_seconds(ForeignTable& table);
+
 // Values row by row as ForeignArray::read gives them.
 [[nodiscard]] std::vector<double> by_columns(std::vector<double> by_rows, std::size_t columns);
 

@@ -86,7 +86,9 @@ std::string count_of(std::size_t n, const char* one) { return fmt::format("{} {}
 
 }  // namespace
 
-ForeignTable foreign_table(const std::string& path, const Mapping& mapping) {
+namespace {
+
+ForeignTable table_of(const std::string& path, const Mapping& mapping) {
     const std::string nature = foreign_nature(path);
     if (nature.starts_with("HDF5")) return hdf5_table_of(path, mapping);
     if (nature.starts_with("a MATLAB 5")) return matlab5_table_of(path, mapping);
@@ -98,6 +100,14 @@ ForeignTable foreign_table(const std::string& path, const Mapping& mapping) {
             "{}: is {}; allowed are text, HDF5, MATLAB, a NumPy array (.npy), MCAP, a ROS bag, or rows of doubles",
             path, nature));
     return text_table_of(path, mapping);
+}
+
+}  // namespace
+
+ForeignTable foreign_table(const std::string& path, const Mapping& mapping) {
+    ForeignTable table = table_of(path, mapping);
+    join_seconds(table);
+    return table;
 }
 
 std::string described(const ForeignColumn& column) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/imported.hpp>
 
+#include "raw_sources.hpp"
 #include "row_clock.hpp"
 #include "suspect_values.hpp"
 #include "units.hpp"
@@ -24,7 +26,8 @@ std::string words_of(const Mapping& mapping) {
 
 double arcsec_of(const Mapping& mapping) {
     const AngleUnit unit = unit_named(mapping.text("unit")).value();
-    return unit.of_counts ? unit.arcsec * mapping.real("scale_arcsec").value() : unit.arcsec;
+    return unit.arcsec * (unit.of_counts ? mapping.real("scale_arcsec").value() : 1.0) *
+           mapping.real("scale").value_or(1.0);
 }
 
 void check_kind(const ForeignLook& look) {
@@ -36,8 +39,7 @@ void check_kind(const ForeignLook& look) {
                                    is_rate ? "the unit of a rate" : "the unit of an angle, or holds=rate"));
 }
 
-ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock& clock,
-                     std::vector<std::string>& notes) {
+ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock& clock) {
     const std::string holds = look.mapping.text("holds");
     const double arcsec = arcsec_of(look.mapping);
     if (holds != "angle" && rises_as_time(column.values))
@@ -45,7 +47,7 @@ ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock
                                        look.table.path, described(column), holds));
     refuse_wraps(look, column, unit_named(look.mapping.text("unit")).value());
     refuse_missing_marks(look.table.path, column);
-    if (const std::string note = stopped(column); !note.empty()) notes.push_back(note);
+    std::vector<std::string> doubts = no_measurements(column, holds);
     for (std::size_t k = 0; k < column.values.size(); ++k) {
         column.values[k] *= arcsec;
         if (!std::isnan(column.values[k]) && !(std::fabs(column.values[k]) <= largest))
@@ -57,7 +59,9 @@ ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock
                       .holds = words_of(look.mapping),
                       .rate_hz = 1.0 / clock.step_s,
                       .rates_arcsec_s = {},
-                      .phase_arcsec = {}};
+                      .phase_arcsec = {},
+                      .mode = {},
+                      .doubts = std::move(doubts)};
     if (holds == "angle") {
         axis.phase_arcsec = std::move(column.values);
         const std::vector<double>& angle = axis.phase_arcsec;
@@ -73,6 +77,29 @@ ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock
     return axis;
 }
 
+// Of each row; where it is not known that of the row before. Of angles it is that of the row that ends the turn.
+std::vector<std::int8_t> modes_of(const ForeignLook& look, TextColumn& column, const RowClock& clock) {
+    make_signs(column.values, look.mapping.real("mode_plus"), fmt::format("{}, {}", look.table.path, described(column)),
+               "mode");
+    if (clock.times) fill_holes(column.values, *clock.times);
+    const bool is_angle = look.mapping.text("holds") == "angle";
+    std::vector<std::int8_t> mode;
+    std::int8_t last = 1;
+    for (std::size_t k = 0; k < column.values.size(); ++k) {
+        if (!std::isnan(column.values[k])) last = column.values[k] > 0.0 ? 1 : -1;
+        if (k > 0 || !is_angle) mode.push_back(last);
+    }
+    return mode;
+}
+
+std::vector<double> table_rates(const ForeignLook& look, TextColumn& column, const RowClock& clock) {
+    auto unit = unit_in_name(column.name);
+    if (look.mapping.has("table_unit")) unit = unit_named(look.mapping.text("table_unit"));
+    for (double& rate : column.values) rate *= unit.value().arcsec;
+    if (clock.times) fill_holes(column.values, *clock.times);
+    return std::move(column.values);
+}
+
 }  // namespace
 
 ImportedAxes imported_axes(const ForeignLook& look) {
@@ -85,11 +112,25 @@ ImportedAxes imported_axes(const ForeignLook& look) {
         throw MappingError(
             fmt::format("{}: axis = {}: this column holds the times of the rows; allowed is another, or time=none",
                         look.table.path, times));
+    const std::size_t n_axes = wanted.size();
+    for (const char* key : {"mode", "table_rate"})
+        if (look.mapping.has(key)) wanted.push_back(column_named(look.table, look.mapping.text(key)).number);
     TextTable read = look.table.read(wanted, times);
     take_out_missing(look.mapping, read);
+    ImportedAxes imported{.axes = {}, .table_rates_arcsec_s = {}, .notes = settle_times(read)};
+    std::vector<std::string> doubts = take_once(read, look.table.path);
     RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
-    ImportedAxes imported{.axes = {}, .notes = std::move(clock.notes)};
-    for (TextColumn& column : read.columns) imported.axes.push_back(axis_of(look, column, clock, imported.notes));
+    std::ranges::copy(clock.notes, std::back_inserter(imported.notes));
+    std::ranges::copy(clock.doubts, std::back_inserter(doubts));
+    if (look.mapping.has("table_rate")) imported.table_rates_arcsec_s = table_rates(look, read.columns.back(), clock);
+    const auto mode =
+        look.mapping.has("mode") ? modes_of(look, read.columns[n_axes], clock) : std::vector<std::int8_t>{};
+    for (std::size_t k = 0; k < n_axes; ++k) {
+        imported.axes.push_back(axis_of(look, read.columns[k], clock));
+        imported.axes.back().mode = mode;
+        std::vector<std::string>& own = imported.axes.back().doubts;
+        own.insert(own.begin(), doubts.begin(), doubts.end());
+    }
     return imported;
 }
 
@@ -105,6 +146,7 @@ std::vector<core::AngleRow> angle_rows(const ImportedAxis& axis) {
                    .dtheta_final_arcsec = turn,
                    .sigma_arcsec = unknown};
         if (!known) rows[k].flags = core::flag_invalid | core::flag_unrepaired;
+        if (!axis.mode.empty()) rows[k].mode = axis.mode[k];
     }
     // Between two angles that are known the turn is known, and not where it happened.
     const std::vector<double>& angle = axis.phase_arcsec;

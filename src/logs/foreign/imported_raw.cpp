@@ -63,6 +63,7 @@ public:
         : look_{look}, path_{look.table.path}, from_{look}, made_{made} {}
 
     void build() {
+        made_.notes = from_.notes();
         if (from_.is_column("half"))
             fill_by_numbers();
         else
@@ -125,7 +126,8 @@ private:
         clock_ = row_clock(from_.read(), path_, mapping, step);
         // Numbers of rows show which are missing, and not how long one is.
         knows_step_ = !step || !clock_.times || !numbers_rows(*from_.read().times, *clock_.times);
-        for (const std::string& note : clock_.notes) made_.notes.push_back(note);
+        for (const auto* notes : {&clock_.notes, &clock_.doubts})
+            made_.notes.insert(made_.notes.end(), notes->begin(), notes->end());
         if (!holes_count) clock_.times.reset();
     }
 

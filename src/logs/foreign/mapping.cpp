@@ -28,21 +28,27 @@ struct Key {
     std::string_view meaning;
 };
 
-constexpr std::array<Key, 33> keys{{
+constexpr auto keys = std::to_array<Key>({
     {"separator", Takes::word, "tab|semicolon|bar|comma|space", "what parts the columns of a text file"},
     {"decimal", Takes::word, "point|comma", "the decimal mark of a text file"},
     {"comment", Takes::word, "", "how lines of a text file begin that are skipped; # where it is not set"},
     {"skip_lines", Takes::whole, "a whole number from 0", "lines of a text file above the names of the columns"},
+    {"encoding", Takes::word, "utf-8|latin-1|windows-1251", "of the letters of a text file"},
+    {"sensor", Takes::word, "",
+     "the word that stands in the rows of one sensor, where several stand by turns; none: they are of one"},
     {"table", Takes::word, "", "group or data set of HDF5, variable of MATLAB"},
     {"topic", Takes::word, "", "the sensor of a bag that holds several"},
     {"time", Takes::column, "a column, or none", "the times of the rows"},
-    {"time_unit", Takes::word, "s|ms|us|ns|min|h", "the unit of these times"},
+    {"time_unit", Takes::word, "s|ms|us|ns|min|h|d", "the unit of these times"},
     {"rate_hz", Takes::positive, "a number above 0", "rows a second, where no column of times says it"},
     {"tick_s", Takes::positive, "a number above 0", "the whole bias period of a raw log, two halves"},
     {"scale_arcsec", Takes::positive, "a number above 0", "what a count is worth"},
     {"axis", Takes::columns, "a column, or a list of them", "the angle or the rate of an axis"},
     {"holds", Takes::word, "rate|increment|angle", "what the axis holds"},
     {"unit", Takes::word, "", "the unit of the axis"},
+    {"scale", Takes::real, "a number", "what the axis is multiplied by to be in that unit"},
+    {"table_rate", Takes::column, "", "the rate of a rate table that turned the gyro"},
+    {"table_unit", Takes::word, "", "its unit, where its name does not say it"},
     {"missing", Takes::real, "a number", "the value that stands for a missing one, such as -9999"},
     {"half", Takes::raw_column, "", "the number of the half"},
     {"bias_sign", Takes::raw_column, "", "the sign of the bias field"},
@@ -62,10 +68,10 @@ constexpr std::array<Key, 33> keys{{
     {"lit", Takes::raw_column, "", "as in docs/logs.md"},
     {"edge_offset_ticks", Takes::raw_column, "", "as in docs/logs.md"},
     {"timer_hz", Takes::positive, "a number above 0", "ticks a second of the timer of edge_offset_ticks"},
-}};
+});
 
 std::string allowed_of(const Key& key) {
-    if (key.name == "unit") return allowed_units();
+    if (key.name == "unit" || key.name == "table_unit") return allowed_units();
     if (key.takes == Takes::raw_column) return "a column, or always:VALUE, or alternating:VALUE";
     return std::string{key.allowed};
 }
@@ -98,7 +104,7 @@ bool takes(const Key& key, const std::string& value) {
     const auto number = number_in(value);
     switch (key.takes) {
         case Takes::word:
-            if (key.name == "unit") return unit_named(value).has_value();
+            if (key.name == "unit" || key.name == "table_unit") return unit_named(value).has_value();
             return key.allowed.empty() ? !value.empty() || key.name == "comment" : is_listed(key.allowed, value);
         case Takes::positive:
             return number && *number > 0.0;

@@ -1,4 +1,5 @@
 #include "raw_sources.hpp"
+#include "row_clock.hpp"
 
 #include <fmt/format.h>
 
@@ -49,6 +50,7 @@ RawSources::RawSources(const ForeignLook& look) : look_{look} {
             fmt::format("{}: counts = '{}'; allowed is a column", look.table.path, look.mapping.text("counts")));
     read_ = look.table.read(wanted, time_column(look.table, look.mapping));
     take_out_missing(look.mapping, read_);
+    notes_ = settle_times(read_);
     for (const TextColumn& column : read_.columns) refuse_missing_marks(look.table.path, column);
     n_ = read_.columns.front().values.size();
     std::size_t next = 0;
@@ -57,8 +59,12 @@ RawSources::RawSources(const ForeignLook& look) : look_{look} {
             source.from = described(read_.columns[next]);
             source.values = std::move(read_.columns[next++].values);
         }
-        if (source.key == "mode") scale_sign(source, "mode_plus");
-        if (source.key == "bias_sign") scale_sign(source, "bias_sign_plus");
+        if (source.key != "mode" && source.key != "bias_sign") continue;
+        if (source.values.empty() && std::fabs(source.fixed) != 1.0)
+            throw MappingError(
+                fmt::format("{}: {} = '{}'; allowed are 1 and -1", look.table.path, source.key, source.from));
+        make_signs(source.values, look.mapping.real(source.key + "_plus"),
+                   fmt::format("{}, {}", look.table.path, source.from), source.key);
     }
     refuse_empty_states();
     refuse_other_counts();
@@ -131,25 +137,22 @@ void RawSources::refuse(std::string_view key, std::size_t k, const std::string& 
                                   row_of_file(k), key, at(key, k), allowed));
 }
 
-// A column of two values, of which the mapping says which one is +1.
-void RawSources::scale_sign(RawSource& source, const char* plus_key) const {
-    if (source.values.empty() && std::fabs(source.fixed) != 1.0)
-        throw MappingError(
-            fmt::format("{}: {} = '{}'; allowed are 1 and -1", look_.table.path, source.key, source.from));
-    const auto plus = look_.mapping.real(plus_key);
+void make_signs(std::vector<double>& values, std::optional<double> plus, const std::string& where,
+                const std::string& key) {
     double other = missing;
-    for (std::size_t k = 0; k < source.values.size(); ++k) {
-        double& value = source.values[k];
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        double& value = values[k];
         if (std::isnan(value)) continue;
         if (!plus) {
             if (std::fabs(value) == 1.0) continue;
             throw MappingError(
-                fmt::format("{}, {}, row {}: {}; allowed are +1 and -1, or --map {}=... the value that stands "
-                            "for +1",
-                            look_.table.path, source.from, k + 1, value, plus_key));
+                fmt::format("{}, row {}: {}; allowed are +1 and -1, or --map {}_plus=... the value that stands for +1",
+                            where, k + 1, value, key));
         }
         if (value != *plus && std::isnan(other)) other = value;
-        if (value != *plus && value != other) refuse(source.key, k, fmt::format("{} or {}", *plus, other));
+        if (value != *plus && value != other)
+            throw FormatError(
+                fmt::format("{}, row {}: {} = {}; allowed is {} or {}", where, k + 1, key, value, *plus, other));
         value = value == *plus ? 1.0 : -1.0;
     }
 }

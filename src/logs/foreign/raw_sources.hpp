@@ -1,6 +1,7 @@
 #pragma once
 // What a mapping says of the columns of a raw log: columns of the foreign file, or a value in their place.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,13 @@ struct RawSource {
     std::string from;  // for messages
 };
 
+// A column of two values becomes one of +1 and -1: `plus` is the one that stands for +1, unset: they stand so.
+// `where` and `key` for messages.
+//
+// errors  MappingError, FormatError: another value.
+void make_signs(std::vector<double>& values, std::optional<double> plus, const std::string& where,
+                const std::string& key);
+
 class RawSources {
 public:
     // Reads the columns. errors  as imported_raw().
@@ -26,6 +34,8 @@ public:
     [[nodiscard]] const RawSource* find(std::string_view key) const;
     [[nodiscard]] const TextTable& read() const { return read_; }
     [[nodiscard]] std::size_t n() const { return n_; }
+    // Of what was understood of the times.
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
     [[nodiscard]] bool is_column(std::string_view key) const {
         const RawSource* source = find(key);
         return source != nullptr && !source->values.empty();
@@ -46,11 +56,11 @@ public:
 private:
     void refuse_empty_states() const;
     void refuse_other_counts() const;
-    void scale_sign(RawSource& source, const char* plus_key) const;
 
     const ForeignLook& look_;
     std::vector<RawSource> all_;
     TextTable read_;
+    std::vector<std::string> notes_;
     std::vector<Hole> holes_;
     std::size_t n_ = 0;
 };

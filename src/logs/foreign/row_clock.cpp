@@ -155,6 +155,23 @@ void check_coarse(const TextColumn& times, RowTimes& found, const std::string& p
         path, described(times), place, found.step));
 }
 
+// Of the steps from row to row, holes left out, many are far from the median.
+std::string odd_steps(const TextColumn& times, const RowTimes& found) {
+    constexpr double far = 0.5, many = 0.01;
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < times.values.size(); ++k) steps.push_back(times.values[k] - times.values[k - 1]);
+    const auto middle = steps.begin() + std::ssize(steps) / 2;
+    std::ranges::nth_element(steps, middle);
+    const double usual = *middle;
+    const auto n = std::ranges::count_if(steps, [&](double step) { return std::fabs(step - usual) > far * usual; }) -
+                   std::ssize(found.holes);
+    if (!(usual > 0.0) || static_cast<double>(n) <= many * static_cast<double>(steps.size())) return {};
+    return fmt::format(
+        "{}: {:.3g} % of its steps are more than half a row off their median, {:.6g}; the rows are taken "
+        "as even",
+        described(times), 100.0 * static_cast<double>(n) / static_cast<double>(steps.size()), usual);
+}
+
 }  // namespace
 
 RowClock row_clock(const TextTable& read, const std::string& path, const Mapping& mapping,
@@ -207,6 +224,7 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
         throw MappingError(
             fmt::format("{}: --map time_unit=s, ms, us or ns is missing, of {}", path, described(times)));
     }
+    if (const std::string odd = odd_steps(times, *clock.times); !odd.empty()) clock.doubts.push_back(odd);
     if (std::ranges::adjacent_find(times.values) != times.values.end())
         clock.notes.push_back(
             fmt::format("{}: its times repeat, so that a single row that is missing is not seen", described(times)));

@@ -2,6 +2,7 @@
 // How far the rows of a foreign file are apart, and where some are missing.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,22 @@ struct RowClock {
     double step_s = 0.0;            // of a row
     std::optional<RowTimes> times;  // with the holes, where a column says where they are
     std::vector<std::string> notes;
+    std::vector<std::string> doubts;  // of the times, a line each
 };
+
+// The range after which whole numbers or times begin anew, and else rise; 0: they do not.
+[[nodiscard]] double begin_of_range(std::span<const double> values);
+
+// Such values as if their range had no end; returns the range. 0: they have none, and are left.
+double go_on(std::vector<double>& values);
+
+// Makes times that begin anew go on; returns notes.
+[[nodiscard]] std::vector<std::string> settle_times(TextTable& read);
+
+// Leaves out rows that repeat the row before and come far too soon after it; returns what was left out, a line.
+//
+// errors  FormatError: such rows have other values than the row before.
+[[nodiscard]] std::vector<std::string> take_once(TextTable& read, const std::string& path);
 
 // The column that holds the times of the rows, 0: none, or it is open which. By the mapping, by its name, or, without a
 // name, as it rises.
@@ -23,8 +39,11 @@ struct RowClock {
 // "time=1|2 or none (columns ...)" where more than one column may hold them, and no name decides; empty else.
 [[nodiscard]] std::string open_times(const ForeignTable& table, const Mapping& mapping);
 
-// errors  MappingError: a column is named as times are, is not taken for them, and nothing is said of it.
-void refuse_unused_times(const ForeignTable& table, const Mapping& mapping);
+// Of columns that rise, or are named as times or counters, and of which nothing is made, where no other says how far
+// the rows are apart: a note each, as they may show rows that are missing.
+//
+// errors  MappingError: a column is named as times are, does not rise, and nothing is said of it.
+[[nodiscard]] std::vector<std::string> unused_times(const ForeignTable& table, const Mapping& mapping);
 
 // What must be given before the step is known, for the user; empty: nothing.
 [[nodiscard]] std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 #include <zlg/logs/error.hpp>
 
@@ -117,18 +118,167 @@ void refuse_missing_marks(const std::string& path, const TextColumn& column) {
     }
 }
 
-std::string stopped(const TextColumn& column) {
-    constexpr std::size_t many_rows = 32, many_times = 10;
-    std::size_t run = 1, longest = 1, before = 1;
-    for (std::size_t k = 1; k < column.values.size(); ++k) {
-        const bool goes_on = column.values[k] == column.values[k - 1];
-        run = goes_on ? run + 1 : 1;
-        if (!goes_on) before = longest;
-        longest = std::max(longest, run);
+namespace {
+
+// Rows of one value, one after the other.
+struct Stretch {
+    std::size_t from = 0, n = 0;
+};
+
+// What the steps from row to row say.
+struct Steps {
+    std::size_t n = 0, n_same = 0;
+    std::vector<Stretch> stretches;  // of many rows; they are not among n and n_same
+    double usual = 0.0;              // median of those that are none of 0
+    double least = 0.0;              // of them
+    bool are_whole = true;           // the values
+
+    [[nodiscard]] double share() const { return n == 0 ? 0.0 : static_cast<double>(n_same) / static_cast<double>(n); }
+};
+
+Steps look_at_steps(const std::vector<double>& values) {
+    constexpr std::size_t many_rows = 32;
+    Steps steps;
+    std::vector<double> sizes;
+    Stretch run;
+    const auto end_run = [&] {
+        if (run.n < many_rows) {
+            steps.n_same += run.n > 0 ? run.n - 1 : 0;
+            steps.n += run.n;
+        } else {
+            steps.stretches.push_back(run);
+        }
+    };
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (!std::isnan(values[k])) steps.are_whole = steps.are_whole && values[k] == std::floor(values[k]);
+        if (k > 0 && values[k] == values[k - 1]) {
+            ++run.n;
+            continue;
+        }
+        if (k > 0 && std::fabs(values[k] - values[k - 1]) > 0.0) sizes.push_back(std::fabs(values[k] - values[k - 1]));
+        end_run();
+        run = {k, std::isnan(values[k]) ? 0u : 1u};
     }
-    if (run == column.values.size() || run < many_rows || run < many_times * before) return {};
-    return fmt::format("{}: its last {} rows are all {}, and count as any other", described(column), run,
-                       column.values.back());
+    end_run();
+    if (sizes.empty()) return steps;
+    steps.least = *std::ranges::min_element(sizes);
+    const auto middle = sizes.begin() + std::ssize(sizes) / 2;
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    steps.usual = *middle;
+    return steps;
+}
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
+
+// A sensor slower than its log repeats values that noise would part. Of white noise rounded to `least` a share of
+// least/(2 sqrt(pi) sigma) repeats by chance, and the median of the other steps is .954 sigma.
+std::string repeats(const TextColumn& column, const Steps& steps) {
+    constexpr double fewest = 0.05, noise = 8.0, by_chance = 0.27, often = 3.0;
+    const double share = steps.share();
+    if (share < fewest || steps.usual < noise * steps.least) return {};
+    if (share < often * by_chance * steps.least / steps.usual) return {};
+    return fmt::format("{}: {} of its rows repeat the row before; each value stands {:.2g} times", described(column),
+                       percent(share), 1.0 / (1.0 - share));
+}
+
+// The outermost values with their numbers of rows, from outside on.
+class Outermost {
+public:
+    explicit Outermost(bool largest) : largest_{largest} {}
+    void note(double value) {
+        if (values_.size() == kept && !is_outside(value, values_.back().first) && value != values_.back().first) return;
+        auto at = std::ranges::find_if(values_, [&](const auto& v) { return !is_outside(v.first, value); });
+        if (at != values_.end() && at->first == value) {
+            ++at->second;
+            return;
+        }
+        values_.insert(at, {value, 1});
+        if (values_.size() > kept) values_.pop_back();
+    }
+    // A column ends at a rail where its outermost value stands far more often than those beside it.
+    [[nodiscard]] bool is_rail() const {
+        constexpr std::size_t fewest = 10, more = 5;
+        if (values_.size() < kept || values_[0].first == 0.0 || values_[0].second < fewest) return false;
+        const auto beside = std::max_element(values_.begin() + 1, values_.end(),
+                                             [](const auto& a, const auto& b) { return a.second < b.second; });
+        return values_[0].second > more * beside->second;
+    }
+    [[nodiscard]] double value() const { return values_.front().first; }
+    [[nodiscard]] std::size_t n() const { return values_.front().second; }
+
+private:
+    static constexpr std::size_t kept = 5;
+    [[nodiscard]] bool is_outside(double a, double b) const { return largest_ ? a > b : a < b; }
+
+    bool largest_;
+    std::vector<std::pair<double, std::size_t>> values_;
+};
+
+struct Rails {
+    explicit Rails(const std::vector<double>& values) {
+        for (const double value : values) {
+            if (std::isnan(value)) continue;
+            largest.note(value);
+            smallest.note(value);
+        }
+    }
+    [[nodiscard]] bool are_at(double value) const {
+        return (largest.is_rail() && value == largest.value()) || (smallest.is_rail() && value == smallest.value());
+    }
+
+    Outermost largest{true}, smallest{false};
+};
+
+std::string rails_in_words(const TextColumn& column, const Steps& steps, const Rails& rails) {
+    constexpr double widest_noise = 32.0;  // of a counter at rest, in its steps
+    std::string text;
+    for (const auto& [outermost, name] :
+         {std::pair{&rails.largest, "largest"}, std::pair{&rails.smallest, "smallest"}}) {
+        if (!outermost->is_rail() || rails.largest.value() - rails.smallest.value() < widest_noise * steps.least)
+            continue;
+        text += fmt::format("{}{} of its rows are at {}, its {} value", text.empty() ? "" : ", and ",
+                            percent(static_cast<double>(outermost->n()) / static_cast<double>(column.values.size())),
+                            outermost->value(), name);
+    }
+    return text.empty() ? text : fmt::format("{}: {}, as where a range ends", described(column), text);
+}
+
+// Longer by far than chance makes them where such a share of the other rows repeats. A counter at rest counts nothing.
+std::string stretches(const TextColumn& column, const Steps& steps, const Rails& rails, const std::string& holds) {
+    constexpr double far = 10.0;
+    if (steps.are_whole && holds == "angle") return {};
+    const double share = steps.share();
+    const double n = static_cast<double>(column.values.size());
+    const double longest = far * (share > 0.0 ? std::max(1.0, std::log(n) / -std::log(share)) : 1.0);
+    std::size_t n_stretches = 0, n_rows = 0;
+    Stretch first;
+    for (const Stretch& stretch : steps.stretches) {
+        const double value = column.values[stretch.from];
+        if ((steps.are_whole && value == 0.0) || rails.are_at(value) || static_cast<double>(stretch.n) < longest ||
+            stretch.n == column.values.size())
+            continue;
+        if (n_stretches++ == 0) first = stretch;
+        n_rows += stretch.n;
+    }
+    if (n_stretches == 0) return {};
+    const bool at_end = first.from + first.n == column.values.size();
+    const std::string rows = at_end ? fmt::format("its last {} rows", first.n)
+                                    : fmt::format("rows {} to {}", first.from + 1, first.from + first.n);
+    return fmt::format(
+        "{}: {} are all {}, and count as any other{}", described(column), rows, column.values[first.from],
+        n_stretches == 1 ? std::string{} : fmt::format("; {} such stretches hold {} rows", n_stretches, n_rows));
+}
+
+}  // namespace
+
+std::vector<std::string> no_measurements(const TextColumn& column, const std::string& holds) {
+    const Steps steps = look_at_steps(column.values);
+    const Rails rails{column.values};
+    std::vector<std::string> lines;
+    for (std::string line : {repeats(column, steps), stretches(column, steps, rails, holds),
+                             holds == "angle" ? std::string{} : rails_in_words(column, steps, rails)})
+        if (!line.empty()) lines.push_back(std::move(line));
+    return lines;
 }
 
 }  // namespace zlg::logs

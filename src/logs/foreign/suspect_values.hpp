@@ -2,6 +2,7 @@
 // Values that are numbers and measure nothing.
 
 #include <string>
+#include <vector>
 
 #include <zlg/logs/imported.hpp>
 #include <zlg/logs/text_columns.hpp>
@@ -19,7 +20,8 @@ void take_out_missing(const Mapping& mapping, TextTable& read);
 // errors  FormatError: a value such as -9999, far from all others.
 void refuse_missing_marks(const std::string& path, const TextColumn& column);
 
-// That the last rows repeat one value, where no other rows do; empty: they do not.
-[[nodiscard]] std::string stopped(const TextColumn& column);
+// Values that may be no measurements, a line each: rows that repeat the row before, long stretches of one value, values
+// at a rail. `holds`: as the mapping says.
+[[nodiscard]] std::vector<std::string> no_measurements(const TextColumn& column, const std::string& holds);
 
 }  // namespace zlg::logs

@@ -41,6 +41,8 @@ TextLayout layout_of(const Mapping& mapping) {
     if (mapping.has("separator")) layout.separator = separators.at(mapping.text("separator"));
     if (mapping.has("decimal")) layout.mark = mapping.text("decimal") == "comma" ? TextMark::comma : TextMark::point;
     if (mapping.has("comment")) layout.comment = mapping.text("comment");
+    if (mapping.text("sensor") != "none") layout.only_with = mapping.text("sensor");
+    layout.is_windows_1251 = mapping.text("encoding") == "windows-1251";
     if (const auto n = mapping.real("skip_lines")) layout.skip_lines = static_cast<std::int64_t>(*n);
     return layout;
 }
@@ -141,6 +143,7 @@ std::vector<std::string> words_of(const std::string& line, const Dialect& dialec
     std::vector<Field> fields;
     split_fields(line, dialect.separator, fields);
     if (fields.size() == dialect.n_fields + 1 && fields.back().text.empty()) fields.pop_back();
+    if (fields.size() + 1 == dialect.n_fields && dialect.ends_empty) fields.emplace_back();
     if (fields.size() != dialect.n_fields) return {};
     std::vector<std::string> words;
     for (const Field& field : fields) words.emplace_back(field.text);
@@ -164,7 +167,10 @@ void find_table(Look& look, const std::string& path, const Mapping& mapping) {
         look.lines.skip_line();
         ++look.layout.skip_lines;
     }
-    throw FormatError(reason.empty() ? fmt::format("{}: holds no rows of numbers", path) : reason);
+    if (reason.empty()) reason = fmt::format("{}: holds no rows of numbers", path);
+    if (std::ssize(look.preamble) > max_preamble)
+        reason += fmt::format("; a head of more than {} lines is skipped by --map skip_lines=NUMBER", max_preamble);
+    throw FormatError(reason);
 }
 
 // One line of numbers may be a record that was written without ends of lines, and is none of rows.
@@ -227,10 +233,11 @@ void take_names_above(Look& look) {
 ForeignColumn column_of(Look& look, const std::string& path, std::size_t f) {
     ForeignColumn column{.number = static_cast<std::int64_t>(f) + 1, .name = {}, .first = {}, .values = {}};
     if (f < look.dialect.names.size()) column.name = look.dialect.names[f];
+    if (const std::size_t at = column.name.find("\"\""); at != std::string::npos) column.name.erase(at, 1);
     if (f < look.units.size() && !look.units[f].empty())
         column.name += fmt::format(" [{}]", without_brackets(look.units[f]));
     column.is_number = is_numeric(look.lines, look.dialect, f);
-    std::optional<DateTime> first_date;
+    Dates dates;
     std::size_t n_numbers = 0, n_words = 0;
     const std::size_t header = look.dialect.has_header ? 1 : 0;
     for (const std::vector<Field>& fields : look.lines.rows(look.dialect.separator).subspan(header)) {
@@ -244,19 +251,16 @@ ForeignColumn column_of(Look& look, const std::string& path, std::size_t f) {
                 fmt::format("{}:{}, column {}: '{}'", path, look.lines.lines()[column.values.size() + header].number,
                             column.number, text::excerpt(fields[f].text, 60, ' '));
         if (!column.is_number) {
-            if (column.other.empty())
-                if (std::string excerpt = text::excerpt(fields[f].text, 30, ' '); excerpt != column.first)
-                    column.other = std::move(excerpt);
-            if (const auto date = date_time(fields[f].text)) {
-                if (!first_date) first_date = date;
-                value =
-                    static_cast<double>(date->seconds - first_date->seconds) + date->fraction - first_date->fraction;
-            }
+            if (const auto date = date_time(fields[f].text)) value = dates.since_first(*date);
+            const auto known = std::ranges::find(column.words, fields[f].text);
+            column.kinds.push_back(known - column.words.begin());
+            if (known == column.words.end() && column.words.size() <= most_words)
+                column.words.emplace_back(fields[f].text);
         }
         column.values.push_back(value);
     }
     if (n_words >= n_numbers) column.word.clear();
-    column.holds_dates = first_date && std::ranges::all_of(column.values, [](double v) { return std::isfinite(v); });
+    column.holds_dates = dates.any() && std::ranges::all_of(column.values, [](double v) { return std::isfinite(v); });
     return column;
 }
 
@@ -275,10 +279,17 @@ std::string nature_of(const Look& look) {
 
 ForeignTable text_table_of(const std::string& path, const Mapping& mapping) {
     Look look{path, mapping};
+    if (look.sample.has_other_letters && !mapping.has("encoding"))
+        throw MappingError(
+            fmt::format("{}: its letters are neither UTF-8 nor plainly Latin-1; say which by --map "
+                        "encoding=windows-1251 or latin-1",
+                        path));
     find_table(look, path, mapping);
     refuse_one_row(look, path);
     take_names_above(look);
     ForeignTable table{.path = path, .nature = nature_of(look), .columns = {}, .notes = {}, .n_rows = {}, .read = {}};
+    table.head = look.sample.head;
+    table.head.insert(table.head.end(), look.preamble.begin(), look.preamble.end());
     for (std::size_t f = 0; f < look.dialect.n_fields; ++f) table.columns.push_back(column_of(look, path, f));
     if (!ends_with_a_line(path))
         table.notes.emplace_back("its last line has no end: if the file was cut off, its last number may be too short");

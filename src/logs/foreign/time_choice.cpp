@@ -7,9 +7,9 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <set>
 #include <span>
 #include <string_view>
+#include <vector>
 #include <zlg/text/spelling.hpp>
 
 #include "row_clock.hpp"
@@ -19,42 +19,66 @@ namespace zlg::logs {
 
 namespace {
 
-const std::map<std::string, double> to_a_second{{"s", 1.0},  {"ms", 1e3},         {"us", 1e6},
-                                                {"ns", 1e9}, {"min", 1.0 / 60.0}, {"h", 1.0 / 3600.0}};
+const std::map<std::string, double> to_a_second{
+    {"s", 1.0}, {"ms", 1e3}, {"us", 1e6}, {"ns", 1e9}, {"min", 1.0 / 60.0}, {"h", 1.0 / 3600.0}, {"d", 1.0 / 86400.0}};
 
 const ForeignColumn& column_at(const ForeignTable& table, std::int64_t number) {
     return table.columns[static_cast<std::size_t>(number - 1)];
 }
 
-bool is_numbered(std::span<const double> values) {
-    return values.size() > 2 && values[1] - values[0] == 1.0 &&
-           std::ranges::all_of(values, [](double v) { return v == std::floor(v); });
+// As a number of rows does, whatever it adds for each, and though it may begin anew.
+bool is_numbered(const ForeignColumn& column) {
+    const auto is_whole = [](double v) { return v == std::floor(v); };
+    if (!column.is_number || column.is_part || !std::ranges::all_of(column.values, is_whole)) return false;
+    std::vector<double> values = column.values;
+    (void)go_on(values);
+    if (values.size() < 3 || !std::ranges::is_sorted(values)) return false;
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(values[k] - values[k - 1]);
+    const auto middle = steps.begin() + std::ssize(steps) / 2;
+    std::ranges::nth_element(steps, middle);
+    return *middle > 0.0 && 10 * std::ranges::count(steps, *middle) >= 9 * std::ssize(steps);
 }
 
-bool names_row_numbers(const std::string& name) {
-    constexpr std::array<std::string_view, 12> words{"n",   "nr",  "no",    "sample",    "sample_no", "index",
-                                                     "idx", "seq", "frame", "sample_nr", "counter",   "packet"};
-    return std::ranges::find(words, text::lower_case(name)) != words.end();
+bool rises(const ForeignColumn& column) {
+    if (!column.is_number || column.is_part) return false;
+    return rises_as_time(column.values) || begin_of_range(column.values) > 0.0;
 }
 
-// As a column that is called time does, with holes or not.
+// As a column that is called time does, with holes or not, and though it may begin anew.
 bool goes_on(std::span<const double> values) {
-    return values.size() > 1 && values.front() < values.back() && std::ranges::is_sorted(values);
+    if (values.size() < 2) return false;
+    return (values.front() < values.back() && std::ranges::is_sorted(values)) || begin_of_range(values) > 0.0;
+}
+
+// Numbers of rows by ones say nothing of times.
+bool merely_numbers(const ForeignColumn& column) {
+    return is_numbered(column) && !column.holds_dates && !unit_of(column.name) &&
+           column.values[1] - column.values[0] == 1.0;
+}
+
+// It holds something else than times.
+bool is_said(const ForeignColumn& column, const ForeignTable& table, const Mapping& mapping) {
+    std::vector<std::string> said = mapping.axes();
+    std::ranges::copy(mapping.raw_columns(), std::back_inserter(said));
+    if (mapping.has("table_rate")) said.push_back(mapping.text("table_rate"));
+    return std::ranges::any_of(said, [&](const auto& name) { return &column_named(table, name) == &column; });
 }
 
 // Of these columns those that are not said to hold something else; all, where none is left.
 std::vector<std::int64_t> free_of(const std::vector<std::int64_t>& all, const ForeignTable& table,
                                   const Mapping& mapping) {
-    std::set<std::int64_t> used;
-    for (const std::string& name : mapping.axes()) used.insert(column_named(table, name).number);
-    for (const std::string& name : mapping.raw_columns()) used.insert(column_named(table, name).number);
     std::vector<std::int64_t> free;
-    std::ranges::copy_if(all, std::back_inserter(free), [&used](std::int64_t n) { return !used.contains(n); });
+    std::ranges::copy_if(all, std::back_inserter(free),
+                         [&](std::int64_t n) { return !is_said(column_at(table, n), table, mapping); });
     return free.empty() ? all : free;
 }
 
 TextColumn times_in(const ForeignColumn& column) {
-    return {.number = column.number, .name = column.name, .values = column.values, .holds_dates = column.holds_dates};
+    TextColumn times{.number = column.number, .name = column.name, .values = column.values};
+    times.holds_dates = column.holds_dates;
+    (void)go_on(times.values);
+    return times;
 }
 
 // Both say one rate, as far as they say their units: a unit that is open, and not said, may be any of s, ms, us, ns.
@@ -73,10 +97,11 @@ bool agree(const ForeignColumn& a, const ForeignColumn& b, const ForeignTable& t
 }
 
 // The first one that is named so, and those that contradict it.
-std::vector<std::int64_t> named_times(const ForeignTable& table, const Mapping& mapping) {
+std::vector<std::int64_t> named_times(const ForeignTable& table, const Mapping& mapping,
+                                      bool (*is_name)(std::string_view)) {
     std::vector<std::int64_t> named;
     for (const ForeignColumn& column : table.columns) {
-        if (!names_time(column.name) || !(column.holds_dates || goes_on(column.values))) continue;
+        if (column.is_part || !is_name(column.name) || !(column.holds_dates || goes_on(column.values))) continue;
         if (named.empty() || !agree(column_at(table, named.front()), column, table, mapping))
             named.push_back(column.number);
     }
@@ -95,19 +120,22 @@ std::vector<std::int64_t> time_columns(const ForeignTable& table, const Mapping&
         if (name == "none" || name == "0") return {};
         return {column_named(table, name).number};
     }
-    if (std::vector<std::int64_t> named = named_times(table, mapping); !named.empty())
-        return free_of(named, table, mapping);
+    for (const auto is_name : {names_time, mentions_time})
+        if (std::vector<std::int64_t> named = named_times(table, mapping, is_name); !named.empty())
+            return free_of(named, table, mapping);
     std::vector<std::int64_t> dates, nameless;
     for (const ForeignColumn& column : table.columns) {
         if (column.holds_dates) dates.push_back(column.number);
-        if (column.name.empty() && column.is_number && rises_as_time(column.values)) nameless.push_back(column.number);
+        if (column.name.empty() && rises(column)) nameless.push_back(column.number);
     }
     if (!dates.empty()) return free_of(dates, table, mapping);
     if (!nameless.empty()) return free_of(nameless, table, mapping);
     // Numbers of rows show those that are missing, and no rate.
-    if (mapping.has("rate_hz") || (mapping.has("tick_s") && !mapping.has("half")))
+    if (!mapping.has("rate_hz") && (!mapping.has("tick_s") || mapping.has("half"))) return {};
+    for (const bool by_name : {true, false})
         for (const ForeignColumn& column : table.columns)
-            if (names_row_numbers(column.name) && is_numbered(column.values) && goes_on(column.values))
+            if (is_numbered(column) && names_counter(column.name) == by_name &&
+                (by_name || mapping.text("holds") != "angle") && !is_said(column, table, mapping))
                 return {column.number};
     return {};
 }
@@ -142,13 +170,30 @@ std::string open_times(const ForeignTable& table, const Mapping& mapping) {
                        fmt::join(named, ", "), more);
 }
 
-void refuse_unused_times(const ForeignTable& table, const Mapping& mapping) {
-    if (mapping.has("time") || mapping.has("half") || !time_columns(table, mapping).empty()) return;
-    for (const ForeignColumn& column : table.columns)
-        if (names_time(column.name) && (column.is_number || !column.word.empty()) && column.values.size() > 1)
+std::vector<std::string> unused_times(const ForeignTable& table, const Mapping& mapping) {
+    if (mapping.has("time") || mapping.has("half")) return {};
+    const std::int64_t times = time_column(table, mapping);
+    std::vector<std::string> notes;
+    for (const ForeignColumn& column : table.columns) {
+        if (column.number == times || column.values.size() < 2 || is_said(column, table, mapping)) continue;
+        const bool is_named = names_time(column.name);
+        if (times == 0 && is_named && (column.is_number || !column.word.empty()))
             throw MappingError(
                 fmt::format("{}, {}: is named as times are, and does not rise; --map time=none leaves it out",
                             table.path, described(column)));
+        // Another column of times was held against the first where both are named.
+        const bool holds_words = times == 0 && (is_named || mentions_time(column.name)) && !column.is_number;
+        const bool is_left = times == 0 || merely_numbers(column_at(table, times));
+        if (holds_words)
+            notes.push_back(fmt::format("{}: is named as times are, and '{}' is none that is known", described(column),
+                                        column.first));
+        else if (is_left && rises(column))
+            notes.push_back(
+                fmt::format("{}: rises as times and counters do, and is not used; --map time={} if it shows "
+                            "rows that are missing",
+                            described(column), column.number));
+    }
+    return notes;
 }
 
 std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) {
@@ -156,7 +201,7 @@ std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) 
     const std::int64_t number = time_column(table, mapping);
     if (number == 0) return "rate_hz=... (rows a second; no column of times was recognised, or time=COLUMN)";
     const ForeignColumn& column = column_at(table, number);
-    const bool may_count = is_numbered(column.values);
+    const bool may_count = merely_numbers(column);
     if (may_count && column.name.empty() && !mapping.has("time"))
         return fmt::format(
             "time={0} if {1} holds the times and does not merely number the rows, time=COLUMN if "

@@ -18,25 +18,18 @@ namespace {
 constexpr double deg = 3600.0;
 constexpr double rad = deg * 180.0 / std::numbers::pi;
 
-constexpr std::array<AngleUnit, 19> units{{{"deg/s", UnitKind::rate, deg},
-                                           {"deg/min", UnitKind::rate, deg / 60.0},
-                                           {"deg/h", UnitKind::rate, 1.0},
-                                           {"mdeg/s", UnitKind::rate, deg / 1e3},
-                                           {"rad/s", UnitKind::rate, rad},
-                                           {"mrad/s", UnitKind::rate, rad / 1e3},
-                                           {"urad/s", UnitKind::rate, rad / 1e6},
-                                           {"arcsec/s", UnitKind::rate, 1.0},
-                                           {"counts/s", UnitKind::rate, 1.0, true},
-                                           {"deg", UnitKind::angle, deg},
-                                           {"mdeg", UnitKind::angle, deg / 1e3},
-                                           {"rad", UnitKind::angle, rad},
-                                           {"mrad", UnitKind::angle, rad / 1e3},
-                                           {"urad", UnitKind::angle, rad / 1e6},
-                                           {"arcmin", UnitKind::angle, 60.0},
-                                           {"arcsec", UnitKind::angle, 1.0},
-                                           {"marcsec", UnitKind::angle, 1e-3},
-                                           {"turns", UnitKind::angle, 360.0 * deg},
-                                           {"counts", UnitKind::angle, 1.0, true}}};
+constexpr std::array<AngleUnit, 21> units{
+    {{"deg/s", UnitKind::rate, deg},        {"deg/min", UnitKind::rate, deg / 60.0},
+     {"deg/h", UnitKind::rate, 1.0},        {"mdeg/s", UnitKind::rate, deg / 1e3},
+     {"rad/s", UnitKind::rate, rad},        {"mrad/s", UnitKind::rate, rad / 1e3},
+     {"urad/s", UnitKind::rate, rad / 1e6}, {"nrad/s", UnitKind::rate, rad / 1e9},
+     {"arcsec/s", UnitKind::rate, 1.0},     {"counts/s", UnitKind::rate, 1.0, true},
+     {"Hz", UnitKind::rate, 1.0, true},     {"deg", UnitKind::angle, deg},
+     {"mdeg", UnitKind::angle, deg / 1e3},  {"rad", UnitKind::angle, rad},
+     {"mrad", UnitKind::angle, rad / 1e3},  {"urad", UnitKind::angle, rad / 1e6},
+     {"arcmin", UnitKind::angle, 60.0},     {"arcsec", UnitKind::angle, 1.0},
+     {"marcsec", UnitKind::angle, 1e-3},    {"turns", UnitKind::angle, 360.0 * deg},
+     {"counts", UnitKind::angle, 1.0, true}}};
 
 void replace(std::string& text, std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
@@ -45,28 +38,38 @@ void replace(std::string& text, std::string_view from, std::string_view to) {
 
 // One spelling of each word.
 std::string usual_spelling(std::string_view word) {
-    std::string text{word};
+    std::string text = without_powers(word);
+    replace(text, " per ", "/");
     std::erase(text, ' ');
     if (text.size() > 1 && text[0] == 'M' && text[1] >= 'a') return text;
-    text = text::lower_case(text);
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 12> spellings{{{"\xC2\xB0", "deg"},
-                                                                                       {"\xC2\xB5", "u"},
-                                                                                       {"\xCE\xBC", "u"},
-                                                                                       {"degrees", "deg"},
-                                                                                       {"_", "/"},
-                                                                                       {"/sec", "/s"},
-                                                                                       {"/hour", "/h"},
-                                                                                       {"/hr", "/h"},
-                                                                                       {"/std", "/h"},
-                                                                                       {"arc-sec", "arcsec"},
-                                                                                       {"pulses", "counts"},
-                                                                                       {"\xE2\x80\xB3", "arcsec"}}};
-    for (const auto& [from, to] : spellings) replace(text, from, to);
+    text = text::small_letters(text);
+    // Each word of the second is spelt as the first, in this order.
+    constexpr auto spellings = std::to_array<std::pair<std::string_view, std::string_view>>(
+        {{"deg", "\xC2\xB0 \xC2\xBA \u0433\u0440\u0430\u0434 degrees degree"},
+         {"deg/", "grad/"},
+         {"u", "\xC2\xB5 \xCE\xBC"},
+         {"", "\xC2\xB7"},
+         {"arcsec",
+          "\u0443\u0433\u043b.\u0441\u0435\u043a \u0443\u0433\u043b.\u0441 arcseconds arc-sec bogensekunden \" '' "
+          "\xE2\x80\xB3"},
+         {"mrad", "\u043c\u0440\u0430\u0434"},
+         {"rad", "\u0440\u0430\u0434 radians"},
+         {"/", "_"},
+         {"/s", "/\u0441\u0435\u043a /\u0441 /seconds /second /sec"},
+         {"/h", "/\u0447\u0430\u0441 /\u0447 /hour /hr /std"},
+         {"/min", "/\u043c\u0438\u043d /minute"},
+         {"counts", "pulses"}});
+    for (auto [to, words] : spellings)
+        for (std::size_t end = 0; !words.empty(); words.remove_prefix(std::min(end + 1, words.size()))) {
+            end = std::min(words.find(' '), words.size());
+            replace(text, words.substr(0, end), to);
+        }
     if (text == "dps") return "deg/s";
     if (text == "dph") return "deg/h";
     if (text == "mdps") return "mdeg/s";
     if (text == "asec") return "arcsec";
     if (text == "count") return "counts";
+    if (text == "hz") return "Hz";
     return text;
 }
 
@@ -107,12 +110,14 @@ std::optional<AngleUnit> unit_named(std::string_view word) {
 }
 
 std::optional<AngleUnit> unit_in_name(std::string_view name) {
-    return names_factor(name) ? std::nullopt : first_unit(name, unit_named);
+    if (names_factor(name)) return std::nullopt;
+    const auto unit = first_unit(name, unit_named);
+    return unit && unit->name == "Hz" ? std::nullopt : unit;
 }
 
 bool names_rate(std::string_view name) {
     const auto unit = first_unit(name, [](std::string_view text) { return unit_named(without_factor(text)); });
-    return unit && unit->kind == UnitKind::rate;
+    return unit && unit->kind == UnitKind::rate && unit->name != "Hz";
 }
 
 std::string allowed_units() {

@@ -1,7 +1,12 @@
 #include "dates.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <zlg/text/spelling.hpp>
 
 namespace zlg::logs {
 
@@ -30,37 +35,51 @@ int days_of(int year, int month) {
     return days[static_cast<std::size_t>(month - 1)] + (month == 2 && leaps ? 1 : 0);
 }
 
-// Days since 1970.
-std::optional<std::int64_t> date(std::string_view& text) {
-    std::optional<int> year, month, day;
-    if (text.size() > 4 && text[4] == '-') {
-        year = digits(text, 4, 4);
-        if (!year || !take(text, '-') || !(month = digits(text, 1, 2)) || !take(text, '-') ||
-            !(day = digits(text, 1, 2)))
-            return std::nullopt;
-    } else {
-        if (!(day = digits(text, 1, 2)) || !take(text, '.') || !(month = digits(text, 1, 2)) || !take(text, '.') ||
-            !(year = digits(text, 4, 4)))
-            return std::nullopt;
-    }
-    if (*month < 1 || *month > 12 || *day < 1 || *day > days_of(*year, *month)) return std::nullopt;
-    std::int64_t days = *day - 1;
-    for (int m = 1; m < *month; ++m) days += days_of(*year, m);
-    const std::int64_t before = *year - 1;  // whole years since the year 1
+std::optional<std::int64_t> days_since_1970(int year, int month, int day) {
+    if (month < 1 || month > 12 || day < 1 || day > days_of(year, month)) return std::nullopt;
+    std::int64_t days = day - 1;
+    for (int m = 1; m < month; ++m) days += days_of(year, m);
+    const std::int64_t before = year - 1;  // whole years since the year 1
     return days + 365 * before + before / 4 - before / 100 + before / 400 - 719162;
+}
+
+struct Day {
+    std::optional<std::int64_t> day_first, month_first;  // days since 1970; month_first: of a date with strokes
+};
+
+// 2026-11-24, 2026/11/24, 24.11.2026, 24/11/2026, 11/24/2026; neither: it is none.
+Day date(std::string_view& text) {
+    const bool year_first = text.find_first_of("-/") == 4;
+    const auto first = digits(text, year_first ? 4 : 1, year_first ? 4 : 2);
+    if (!first || text.empty()) return {};
+    const char mark = text.front();
+    if ((year_first ? mark != '-' : mark != '.') && mark != '/') return {};
+    text.remove_prefix(1);
+    const auto second = digits(text, 1, 2);
+    if (!second || !take(text, mark)) return {};
+    const auto third = digits(text, year_first ? 1 : 4, year_first ? 2 : 4);
+    if (!third) return {};
+    if (year_first) return Day{days_since_1970(*first, *second, *third), std::nullopt};
+    return Day{days_since_1970(*third, *second, *first),
+               mark == '/' ? days_since_1970(*third, *first, *second) : std::nullopt};
 }
 
 std::optional<DateTime> time_of_day(std::string_view& text, bool has_date) {
     const auto hour = digits(text, 1, 2);
-    if (!hour || *hour > 23 || !take(text, ':')) return std::nullopt;
+    if (!hour || *hour > 59 || !take(text, ':')) return std::nullopt;
     const auto minute = digits(text, 2, 2);
     if (!minute || *minute > 59) return std::nullopt;
     DateTime time{.seconds = 3600 * *hour + 60 * *minute};
-    // 08:30 without a date may be minutes and seconds.
-    if (!take(text, ':')) return has_date ? std::optional{time} : std::nullopt;
-    const auto second = digits(text, 2, 2);
-    if (!second || *second > 59) return std::nullopt;
-    time.seconds += *second;
+    // 08:30 without a date may be minutes and seconds, and 30:45.6 is.
+    if (text.starts_with('.') && !has_date) {
+        time.seconds = 60 * *hour + *minute;
+    } else {
+        if (*hour > 23) return std::nullopt;
+        if (!take(text, ':')) return has_date ? std::optional{time} : std::nullopt;
+        const auto second = digits(text, 2, 2);
+        if (!second || *second > 59) return std::nullopt;
+        time.seconds += *second;
+    }
     if (!take(text, '.') && !take(text, ',')) return time;
     double unit = 0.1;
     std::size_t n = 0;
@@ -69,6 +88,20 @@ std::optional<DateTime> time_of_day(std::string_view& text, bool has_date) {
     if (n == 0) return std::nullopt;
     text.remove_prefix(n);
     return time;
+}
+
+// Takes AM or PM off; false where the hour is none of it.
+bool take_half_of_day(std::string_view& text, DateTime& time, bool& is_there) {
+    while (take(text, ' ')) {
+    }
+    const std::string half = zlg::text::lower_case(text);
+    is_there = half == "am" || half == "pm";
+    if (!is_there) return true;
+    text = {};
+    const std::int64_t hour = time.seconds / 3600;
+    if (hour < 1 || hour > 12) return false;
+    time.seconds += 3600 * ((half == "pm" ? 12 : 0) - (hour == 12 ? 12 : 0));
+    return true;
 }
 
 // Z, +01:00, -0130: how far before UTC, s.
@@ -87,12 +120,12 @@ std::optional<std::int64_t> zone(std::string_view text) {
 }  // namespace
 
 std::optional<DateTime> date_time(std::string_view text) {
-    const bool has_date = text.size() > 4 && (text[4] == '-' || text.find('.') < text.find(':'));
-    std::int64_t days = 0;
+    const bool has_date =
+        text.size() > 4 && (text[4] == '-' || std::min(text.find('.'), text.find('/')) < text.find(':'));
+    Day day{.day_first = 0, .month_first = {}};
     if (has_date) {
-        const auto found = date(text);
-        if (!found) return std::nullopt;
-        days = *found;
+        day = date(text);
+        if (!day.day_first && !day.month_first) return std::nullopt;
         if (!take(text, 'T')) {
             if (!take(text, ' ')) return std::nullopt;
             while (take(text, ' ')) {
@@ -100,12 +133,35 @@ std::optional<DateTime> date_time(std::string_view text) {
         }
     }
     auto time = time_of_day(text, has_date);
-    if (!time) return std::nullopt;
+    bool by_halves = false;
+    if (!time || !take_half_of_day(text, *time, by_halves)) return std::nullopt;
+    if (by_halves) std::swap(day.day_first, day.month_first);
+    if (by_halves && !has_date) day.day_first = 0;
+    if (!day.day_first) std::swap(day.day_first, day.month_first);
     const auto east_s = zone(text);
-    if (!east_s) return std::nullopt;
+    if (!east_s || !day.day_first) return std::nullopt;
     time->has_zone = !text.empty();
-    time->seconds += 86400 * days - *east_s;
+    time->seconds -= *east_s;
+    if (day.month_first && *day.month_first != *day.day_first)
+        time->otherwise = time->seconds + 86400 * *day.month_first;
+    time->seconds += 86400 * *day.day_first;
     return time;
+}
+
+// The way that goes on by less is the right one: the other goes by months where this goes by days.
+double Dates::since_first(const DateTime& date) {
+    if (!first_) first_ = date;
+    const auto since = [&](bool other_way) {
+        const auto seconds = [other_way](const DateTime& d) {
+            return other_way ? d.otherwise.value_or(d.seconds) : d.seconds;
+        };
+        return static_cast<double>(seconds(date) - seconds(*first_)) + (date.fraction - first_->fraction);
+    };
+    const double one = since(other_way_), other = since(!other_way_);
+    const bool other_is_nearer = std::fabs(other - last_s_) < std::fabs(one - last_s_);
+    if (other_is_nearer) other_way_ = !other_way_;
+    last_s_ = other_is_nearer ? other : one;
+    return last_s_;
 }
 
 }  // namespace zlg::logs

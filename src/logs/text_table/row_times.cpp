@@ -135,7 +135,7 @@ std::optional<RowTimes> row_times(const TextColumn& column, const std::string& p
 }
 
 bool numbers_rows(const TextColumn& column, const RowTimes& times) {
-    return !said_unit(column) && times.step == 1.0 &&
+    return !said_unit(column) && (times.step == 1.0 || names_counter(column.name)) &&
            std::ranges::all_of(column.values, [](double v) { return v == std::floor(v); });
 }
 

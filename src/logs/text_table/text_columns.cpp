@@ -38,6 +38,57 @@ std::string_view without_leading_blanks(std::string_view text) {
 // `sep=;` above all others tells Excel the separator.
 bool is_note_for_excel(std::string_view line) { return line.size() == 5 && line.starts_with("sep="); }
 
+std::string of_windows_1251(std::string_view text) {
+    std::string utf8;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        unsigned code = byte;
+        if (byte >= 0xC0) code = 0x410 + byte - 0xC0;
+        if (byte == 0xA8) code = 0x401;
+        if (byte == 0xB8) code = 0x451;
+        if (code < 0x80) {
+            utf8 += c;
+        } else {
+            utf8 += static_cast<char>(0xC0u | (code >> 6u));
+            utf8 += static_cast<char>(0x80u | (code & 0x3Fu));
+        }
+    }
+    return utf8;
+}
+
+bool has_other_letters(std::string_view line) {
+    constexpr int most = 2;
+    int n = 0;
+    for (const char c : line) {
+        n = static_cast<unsigned char>(c) >= 0xC0 ? n + 1 : 0;
+        if (n > most) return text::as_utf8(line) != line;
+    }
+    return false;
+}
+
+// Of a sentence such as $GPRMC,...*4A the fields.
+std::string_view without_check_sum(std::string_view line) {
+    if (!line.starts_with('$') && !line.starts_with('%')) return line;
+    const std::size_t star = line.rfind('*');
+    if (star == std::string_view::npos) return line;
+    const std::size_t n_digits = line.find_last_not_of(" \t\r") - star;
+    return n_digits == 2 || n_digits == 8 ? line.substr(0, star) : line;
+}
+
+// A row, by a number in it, in which that word does not stand.
+bool is_of_another(std::string_view line, std::string_view word) {
+    constexpr std::string_view between = " \t,;|\"";
+    bool has_number = false;
+    while (!line.empty()) {
+        const std::size_t end = std::min(line.find_first_of(between), line.size());
+        const std::string_view field = line.substr(0, end);
+        if (field == word) return false;
+        has_number = has_number || (!field.empty() && field.find_first_not_of("0123456789+-.eE") == std::string::npos);
+        line.remove_prefix(std::min(end + 1, line.size()));
+    }
+    return has_number;
+}
+
 // Lines that hold rows, those at the head kept until it is known how to read them.
 class DataLines {
 public:
@@ -47,7 +98,8 @@ public:
         while (sample_.lines.size() < 2 || (sample_.lines.size() < sample_lines && n_bytes < sample_bytes)) {
             sample_.is_whole = !next_of_file(line);
             if (sample_.is_whole) break;
-            sample_.lines.push_back({lines_.line_number(), text::as_utf8(line), {}});
+            sample_.has_other_letters = sample_.has_other_letters || has_other_letters(line);
+            sample_.lines.push_back({lines_.line_number(), in_utf8(line), {}});
             if (sample_.lines.size() <= lines_with_comment) sample_.lines.back().comment = comment_;
             n_bytes += line.size();
         }
@@ -71,17 +123,23 @@ public:
     }
 
 private:
+    [[nodiscard]] std::string in_utf8(std::string_view line) const {
+        return layout_.is_windows_1251 ? of_windows_1251(line) : text::as_utf8(line);
+    }
+
     bool next_of_file(std::string_view& line) {
         while (lines_.next(line)) {
             const std::string_view text = without_leading_blanks(line);
             if (text.empty() || is_note_for_excel(text)) continue;
             if (!layout_.comment.empty() && text.starts_with(layout_.comment)) {
                 if (sample_.lines.size() < lines_with_comment)
-                    comment_ = text.substr(layout_.comment.size(), longest_comment);
+                    comment_ = in_utf8(text.substr(layout_.comment.size(), longest_comment));
+                if (sample_.lines.empty() && sample_.head.size() < lines_with_comment) sample_.head.push_back(comment_);
                 continue;
             }
-            if (n_skipped_ == layout_.skip_lines) return true;
-            ++n_skipped_;
+            if (n_skipped_++ < layout_.skip_lines) continue;
+            line = without_check_sum(line);
+            if (layout_.only_with.empty() || !is_of_another(text, layout_.only_with)) return true;
         }
         return false;
     }
@@ -177,10 +235,10 @@ private:
         if (!times.holds_dates && !times.values.empty()) return std::nullopt;
         const auto date = date_time(text);
         if (!date) return std::nullopt;
-        if (!times.holds_dates) first_date_ = *date;
+        if (!times.holds_dates) times.origin_s = static_cast<double>(date->seconds) + date->fraction;
         times.holds_dates = true;
         times.is_local = times.is_local || !date->has_zone;
-        return static_cast<double>(date->seconds - first_date_.seconds) + (date->fraction - first_date_.fraction);
+        return dates_.since_first(*date);
     }
 
     double number(std::size_t field, MarkUse* use) {
@@ -217,7 +275,7 @@ private:
     std::vector<MarkUse> use_;
     std::vector<Field> fields_;
     bool times_may_fail_ = false;
-    DateTime first_date_;
+    Dates dates_;
 };
 
 void Rows::choose_times() {

@@ -148,14 +148,14 @@ private:
 
     bool header_fits(Rows rows, Reading& reading) const {
         Dialect& dialect = reading.dialect;
+        dialect.ends_empty = std::ranges::all_of(rows.begin() + (dialect.has_header ? 1 : 0), rows.end(),
+                                                 [](const auto& row) { return row.back().text.empty(); });
         if (!dialect.has_header) {
             take_names_of_comment(dialect);
             return true;
         }
         const std::vector<Field>& names = rows.front();
-        const bool ends_empty =
-            std::ranges::all_of(rows.begin() + 1, rows.end(), [](const auto& row) { return row.back().text.empty(); });
-        const bool one_less = ends_empty && names.size() + 1 == dialect.n_fields;
+        const bool one_less = dialect.ends_empty && names.size() + 1 == dialect.n_fields;
         if (names.size() == dialect.n_fields || one_less) {
             for (const Field& name : names) dialect.names.emplace_back(name.text);
             if (one_less) dialect.names.emplace_back();

@@ -20,18 +20,12 @@ std::string other_columns(const TextTable& table) {
 }  // namespace
 
 std::string mistaken_times(const TextTable& table, const std::string& path, const TextLayout& layout,
-                           const TimeQuestion& question) {
-    if (question.column_is_said) return {};
+                           bool column_is_said, const std::string& noun) {
+    if (column_is_said) return {};
     const TextColumn& column = table.columns.front();
-    bool is_time = names_time(column.name);
-    if (!is_time && !question.may_rise) is_time = rises_as_time(column.values);
-    // An angle may rise evenly: it does not rise by exactly the time of a row.
-    if (!is_time && table.n_columns > 1 && question.rate_hz)
-        if (const auto times = row_times(column, path, false))
-            is_time = contradiction(column, *times, *question.rate_hz).empty();
-    if (!is_time) return {};
+    if (!names_time(column.name) && !rises_as_time(column.values)) return {};
     const std::string head = fmt::format("{0}.column is not set: {1}, {2} rises as times do and is no {3}; ",
-                                         layout.section, path, described(column), question.noun);
+                                         layout.section, path, described(column), noun);
     if (table.n_columns < 2) return head + fmt::format("{}.column = 1 if it is, for there is no other", layout.section);
     return head + fmt::format("say which {0}.column it is, of {1}, or 1 if it is that one", layout.section,
                               other_columns(table));

@@ -1,11 +1,13 @@
 #include "time_names.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <functional>
-#include <string>
 #include <vector>
+#include <zlg/text/spelling.hpp>
 
 namespace zlg::logs {
 
@@ -17,46 +19,57 @@ bool is_unit_letter(char c) {
 
 bool is_unit_digit(char c) { return c >= '0' && c <= '9'; }
 
-// A word of the name, in small letters, and what is left behind it. Ms are no milliseconds.
+bool is_capital(char c) { return c >= 'A' && c <= 'Z'; }
+
+// A word of the name, in small letters, and what is left behind it. Ms are no milliseconds. A capital begins a word
+// behind a small letter.
 std::string next_word(std::string_view& name) {
     while (!name.empty() && !is_unit_letter(name.front())) name.remove_prefix(1);
     std::string word;
-    for (; !name.empty() && is_unit_letter(name.front()); name.remove_prefix(1))
-        word +=
-            name.starts_with("Ms") ? 'M' : static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
-    return word;
+    for (; !name.empty() && is_unit_letter(name.front()); name.remove_prefix(1)) {
+        word += name.front();
+        if (word.size() > 1 && name.size() > 1 && name[0] >= 'a' && name[0] <= 'z' && is_capital(name[1])) {
+            name.remove_prefix(1);
+            break;
+        }
+    }
+    return word.starts_with("Ms") ? "M" + text::small_letters(word.substr(1)) : text::small_letters(word);
 }
 
+// Behind the group or the message that the column is in: `t` of data.t, meas/t and header.stamp.t [s].
+std::string_view last_part(std::string_view name) {
+    const std::string_view head = name.substr(0, name.find_first_of("[(<"));
+    const std::size_t end = head.find_last_not_of(" ./");
+    const std::size_t at = head.find_last_of("./", end);
+    return end == std::string_view::npos || at == std::string_view::npos ? name : name.substr(at + 1);
+}
+
+// Words of a unit, with blanks between, and how many of it make a second.
 struct NamedUnit {
-    std::string_view name;
+    std::string_view words;
     double to_a_second;
 };
 
-constexpr std::array<NamedUnit, 16> units{{{"s", 1.0},
-                                           {"sec", 1.0},
-                                           {"secs", 1.0},
-                                           {"second", 1.0},
-                                           {"seconds", 1.0},
-                                           {"sekunden", 1.0},
-                                           {"ms", 1e3},
-                                           {"msec", 1e3},
-                                           {"us", 1e6},
-                                           {"usec", 1e6},
-                                           {"\xC2\xB5s", 1e6},
-                                           {"\xCE\xBCs", 1e6},
-                                           {"ns", 1e9},
-                                           {"min", 1.0 / 60.0},
-                                           {"h", 1.0 / 3600.0},
-                                           {"hours", 1.0 / 3600.0}}};
+constexpr auto units =
+    std::to_array<NamedUnit>({{" s sec secs second seconds sekunden \u0441 \u0441\u0435\u043a ", 1.0},
+                              {" ms msec millis milliseconds \u043c\u0441 ", 1e3},
+                              {" us usec usecs micros microseconds \xC2\xB5s \xCE\xBCs \u043c\u043a\u0441 ", 1e6},
+                              {" ns nsec nsecs nanosec nanoseconds ", 1e9},
+                              {" min \u043c\u0438\u043d ", 1.0 / 60.0},
+                              {" h hours \u0447 ", 1.0 / 3600.0},
+                              {" d days mjd jd ", 1.0 / 86400.0}});
+
+// Words that are a name of times and their unit at once.
+constexpr std::array<std::string_view, 4> names_of_units{"millis", "micros", "mjd", "jd"};
 
 // Of the words behind the first one, how many make a second.
 std::vector<double> units_in(std::string_view name) {
     std::vector<double> all;
-    (void)next_word(name);
-    while (!name.empty()) {
+    name = last_part(name);
+    for (bool is_first = true; !name.empty(); is_first = false) {
         const std::string word = next_word(name);
-        const auto found = std::ranges::find(units, std::string_view{word}, &NamedUnit::name);
-        if (found != units.end()) all.push_back(found->to_a_second);
+        if (is_first && std::ranges::find(names_of_units, std::string_view{word}) == names_of_units.end()) continue;
+        if (const auto unit = time_unit(word)) all.push_back(*unit);
     }
     return all;
 }
@@ -72,9 +85,25 @@ bool is_factor(std::string_view name, std::size_t from, std::size_t to) {
     return is(to, is_unit_letter) ? is_long || !numbers_word : is_long && !numbers_word;
 }
 
+bool has_word(std::string_view column_name, std::string_view words) {
+    std::string_view rest = last_part(column_name);
+    while (!rest.empty())
+        if (words.find(fmt::format(" {} ", next_word(rest))) != std::string_view::npos) return true;
+    return false;
+}
+
 }  // namespace
 
-bool names_factor(std::string_view name) {
+std::optional<double> time_unit(std::string_view word) {
+    const std::string as_listed = fmt::format(" {} ", word);
+    const auto found = std::ranges::find_if(
+        units, [&](const NamedUnit& unit) { return unit.words.find(as_listed) != std::string_view::npos; });
+    return found == units.end() ? std::nullopt : std::optional{found->to_a_second};
+}
+
+bool names_factor(std::string_view full_name) {
+    const std::string plain = without_powers(full_name);
+    const std::string_view name = plain;
     for (const std::string_view sign : {"*", "^", "\xC3\x97", "\xC2\xB7"})
         if (name.find(sign) != std::string_view::npos) return true;
     const std::size_t bracket = std::min(name.find_first_of("[(<"), name.size());
@@ -87,8 +116,16 @@ bool names_factor(std::string_view name) {
     return false;
 }
 
+std::string without_powers(std::string_view name) {
+    std::string plain{name};
+    for (const std::string_view power : {" s^-1", "*s^-1", "\xC2\xB7s^-1", ".s^-1", " s-1", ".s-1", "\xC2\xB7s-1",
+                                         " s\xE2\x81\xBB\xC2\xB9", "\xC2\xB7s\xE2\x81\xBB\xC2\xB9"})
+        if (const std::size_t at = plain.find(power); at != std::string::npos) plain.replace(at, power.size(), "/s");
+    return plain;
+}
+
 std::optional<double> unit_of(std::string_view name) {
-    std::string_view behind = name;
+    std::string_view behind = last_part(name);
     (void)next_word(behind);
     if (names_factor(behind)) return std::nullopt;
     const std::vector<double> all = units_in(name);
@@ -101,9 +138,10 @@ bool names_two_units(std::string_view name) {
 }
 
 bool names_time(std::string_view column_name) {
-    constexpr std::array<std::string_view, 11> words{"time",    "zeit",  "timestamp", "stamp",   "tow",        "utc",
-                                                     "gpstime", "epoch", "datetime",  "uhrzeit", "zeitstempel"};
-    std::string_view rest = column_name;
+    constexpr auto words = std::to_array<std::string_view>(
+        {"time", "zeit", "timestamp", "stamp", "tow", "utc", "gpstime", "epoch", "datetime", "uhrzeit", "zeitstempel",
+         "millis", "micros", "mjd", "jd", "\u0432\u0440\u0435\u043c\u044f"});
+    std::string_view rest = last_part(column_name);
     const std::string word = next_word(rest);
     // T is a temperature, and so is t [C].
     if (word == "t" && column_name.find('t') != std::string_view::npos) {
@@ -111,6 +149,16 @@ bool names_time(std::string_view column_name) {
         return next_word(behind).empty() || !units_in(column_name).empty();
     }
     return std::ranges::find(words, std::string_view{word}) != words.end();
+}
+
+bool mentions_time(std::string_view column_name) {
+    return has_word(column_name, " time timestamp stamp zeit tow epoch unix utc elapsed micros millis mjd ");
+}
+
+bool names_counter(std::string_view column_name) {
+    return has_word(column_name,
+                    " n nr no sample samples index idx seq frame count counter packet cnt sequence iteration "
+                    "\u043d\u043e\u043c\u0435\u0440 ");
 }
 
 }  // namespace zlg::logs

@@ -26,19 +26,7 @@ struct ConfigError : std::runtime_error {
 // Dotted keys (`gyro.tick_s`) and their values as TOML, in the order of the table or of a log.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-enum class ValueKind {
-    real,
-    optional_real,
-    integer,
-    text,
-    reals,
-    choice,
-    optional_choice,
-    choices,
-    interval,
-    column,
-    columns
-};
+enum class ValueKind { real, optional_real, integer, text, reals, choice, optional_choice, choices, interval, column };
 
 // What is known of one key.
 struct KeyInfo {

@@ -13,13 +13,18 @@
 
 namespace zlg::logs {
 
+// Of a column of words so many different ones are kept.
+inline constexpr std::size_t most_words = 17;
+
 struct ForeignColumn {
     std::int64_t number = 0;   // first is 1
     std::string name;          // with the unit behind it in brackets, where the file says one; empty: it has none
     bool is_number = true;     // or dates, or empty fields; else words
+    bool is_part = false;      // of a time whose seconds and nanoseconds stand in two columns
     bool holds_dates = false;  // or times of the day: the values are seconds from the first one on
     std::string first;         // value, as it stands in the file
-    std::string other;         // the first one that differs, of a column of words
+    std::vector<std::string> words{};   // of a column of words the first different ones
+    std::vector<std::int64_t> kinds{};  // of the first rows which of these
     std::string word;  // where the first one stands among more numbers: "v.csv:51, column 2: 'OVF'"; empty: none does
     std::vector<double> values;  // of the first rows; NaN where one is missing
 };
@@ -29,6 +34,7 @@ struct ForeignTable {
     std::string nature;  // what the file is and how it was read
     std::vector<ForeignColumn> columns;
     std::vector<std::string> notes;      // of what was left out
+    std::vector<std::string> head{};     // lines of text above the names of the columns
     std::optional<std::int64_t> n_rows;  // text: not known before it is read
     // Whole columns, and the times of the rows where a column is said to hold them.
     std::function<TextTable(const std::vector<std::int64_t>& wanted, std::int64_t times)> read;

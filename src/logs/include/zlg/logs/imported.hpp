@@ -4,6 +4,7 @@
 // What the file itself says is taken and said; what it leaves open is asked for. Nothing that a number depends on is
 // guessed.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,11 @@ struct ForeignLook {
 // errors  as foreign_table(); MappingError: a column that is said is not there.
 [[nodiscard]] ForeignLook look_at_foreign(const std::string& path, const Mapping& said);
 
+// The same of files of one record, in their order: rows that are missing between them are as those within one.
+//
+// errors  as above; MappingError: they have not the same columns.
+[[nodiscard]] ForeignLook look_at_foreign(const std::vector<std::string>& paths, const Mapping& said);
+
 // errors  MappingError: one line with all that is missing.
 void require_whole(const ForeignLook& look);
 
@@ -52,10 +58,13 @@ struct ImportedAxis {
     double rate_hz = 0.0;
     std::vector<double> rates_arcsec_s;  // NaN where nothing was measured
     std::vector<double> phase_arcsec;    // where angles are recorded: those, one more
+    std::vector<std::int8_t> mode;       // of a switched gyro, as many as rates; else empty
+    std::vector<std::string> doubts;     // values that may be no measurements, a line each
 };
 
 struct ImportedAxes {
     std::vector<ImportedAxis> axes;
+    std::vector<double> table_rates_arcsec_s;  // of a rate table that turned the gyro; NaN: not known; else empty
     std::vector<std::string> notes;
 };
 

@@ -34,7 +34,7 @@ struct RowTimes {
 [[nodiscard]] std::optional<RowTimes> row_times(const TextColumn& column, const std::string& path, bool is_said,
                                                 const std::string& none = "time_column = 0");
 
-// Whole numbers that rise by 1, without a unit in the name: they may merely number the rows.
+// Whole numbers that rise by 1, or are named as a counter, without a unit in the name: they may merely number the rows.
 [[nodiscard]] bool numbers_rows(const TextColumn& column, const RowTimes& times);
 
 // Why these times are not those of so many rows a second; empty where they may be: in the unit that the column's name

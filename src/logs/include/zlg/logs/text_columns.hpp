@@ -23,6 +23,8 @@ struct TextLayout {
     TextMark mark = TextMark::automatic;
     std::string time_column;           // as `columns`; empty: looked for; "0": there is none
     std::string section = "analysis";  // whose keys `separator`, `decimal`, `skip_lines` messages name
+    std::string only_with;             // rows without this word are skipped; empty: none are
+    bool is_windows_1251 = false;      // its letters; else UTF-8, or Latin-1 where a line is none
     std::size_t max_rows = 0;          // 0: any number
     std::int64_t max_bytes = 0;        // comments and empty lines with them; 0: any number
 };
@@ -30,9 +32,10 @@ struct TextLayout {
 struct TextColumn {
     std::int64_t number = 0;     // first is 1
     std::string name;            // empty: it has none
-    std::vector<double> values;  // NaN where a field is empty, `nan`, `NA` or `null`
+    std::vector<double> values;  // NaN where a field is empty, `nan`, `NA`, `null` or `-1.#IND`
     bool holds_dates = false;    // of times: dates, or times of the day; the values are seconds from the first one on
     bool is_local = false;       // dates of no said time zone
+    double origin_s = 0.0;       // of dates: the first one, since 1970
 };
 
 struct TextTable {

@@ -10,17 +10,10 @@
 
 namespace zlg::logs {
 
-struct TimeQuestion {
-    bool column_is_said = false;
-    bool may_rise = false;          // an angle may rise evenly; a rate does not
-    std::string noun;               // what the column should hold: "rate", "angle", "motion"
-    std::optional<double> rate_hz;  // unset: nothing to hold the times against
-};
-
 // Why the first column is not read: nobody asked for it, and it holds times by its name or by how it rises. Empty: it
 // is.
 [[nodiscard]] std::string mistaken_times(const TextTable& table, const std::string& path, const TextLayout& layout,
-                                         const TimeQuestion& question);
+                                         bool column_is_said, const std::string& noun);
 
 struct TimeCheck {
     std::optional<RowTimes> times;

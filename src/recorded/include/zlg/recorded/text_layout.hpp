@@ -6,7 +6,6 @@
 
 namespace zlg::recorded {
 
-[[nodiscard]] logs::TextLayout text_layout(const config::Analysis& analysis);
 [[nodiscard]] logs::TextLayout text_layout(const config::Motion& motion);
 
 }  // namespace zlg::recorded

@@ -13,4 +13,7 @@ namespace zlg::text {
 // The letters A to Z as a to z.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
+// With small letters in place of capitals: of ASCII, and of Latin-1 and Russian in UTF-8.
+[[nodiscard]] std::string small_letters(std::string_view text);
+
 }  // namespace zlg::text

@@ -1,0 +1,141 @@
+// Rows of several sensors by turns are no samples of one.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <ranges>
+#include <vector>
+#include <zlg/logs/imported.hpp>
+#include <zlg/text/escape.hpp>
+#include <zlg/text/spelling.hpp>
+
+#include "mixed_rows.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+constexpr std::size_t most_sensors = 16;
+
+bool names_sensor(const std::string& name) {
+    constexpr std::string_view names =
+        " id sensor sensor_id sensorid device device_id channel kanal node can_id axis achse ";
+    return !name.empty() && names.find(fmt::format(" {} ", text::lower_case(name))) != std::string_view::npos;
+}
+
+// Of each row which of a few words or whole numbers stands in it; empty where they are many, or one.
+std::vector<std::int64_t> kinds_of(const ForeignColumn& column) {
+    std::vector<std::int64_t> kinds;
+    if (!column.is_number) {
+        if (!column.holds_dates && column.words.size() >= 2 && column.words.size() <= most_sensors)
+            kinds = column.kinds;
+        return kinds;
+    }
+    std::map<double, std::int64_t> known;
+    for (const double value : column.values) {
+        if (std::isnan(value)) continue;
+        kinds.push_back(known.try_emplace(value, std::ssize(known)).first->second);
+        if (value != std::floor(value) || known.size() > most_sensors) return {};
+    }
+    return known.size() < 2 || kinds.size() < column.values.size() ? std::vector<std::int64_t>{} : kinds;
+}
+
+// Rows of one kind, one after the other.
+struct Run {
+    std::int64_t kind = 0;
+    std::size_t n = 0;
+};
+
+std::vector<Run> runs_of(const std::vector<std::int64_t>& kinds) {
+    std::vector<Run> runs;
+    for (const std::int64_t kind : kinds) {
+        if (runs.empty() || runs.back().kind != kind) runs.push_back({kind, 0});
+        ++runs.back().n;
+    }
+    return runs;
+}
+
+// Each is nearly always followed by one and the same other, after as many rows, as sensors by turns are; noise of a few
+// counts is not.
+bool take_turns(const std::vector<Run>& runs) {
+    std::map<std::int64_t, std::map<std::int64_t, std::size_t>> next;
+    std::map<std::size_t, std::size_t> lengths;
+    for (std::size_t k = 1; k < runs.size(); ++k) {
+        ++next[runs[k - 1].kind][runs[k].kind];
+        ++lengths[runs[k - 1].n];
+    }
+    const auto most = [](const auto& counts) { return std::ranges::max(counts | std::views::values); };
+    std::size_t n_usual = 0;
+    for (const auto& [kind, counts] : next) n_usual += most(counts);
+    return 20 * n_usual >= 19 * (runs.size() - 1) && 10 * most(lengths) >= 9 * (runs.size() - 1);
+}
+
+struct Moments {
+    double n = 0.0, sum = 0.0, squares = 0.0;
+
+    [[nodiscard]] double mean() const { return sum / n; }
+    [[nodiscard]] double variance() const { return std::max(squares / n - mean() * mean(), 0.0); }
+};
+
+// The rows of two kinds differ in their mean or their scatter: a counter of the rows changes neither.
+bool differ(const ForeignColumn& column, const std::vector<std::int64_t>& kinds) {
+    constexpr double sigmas = 8.0, fewest = 8.0, times = 3.0;
+    std::map<std::int64_t, Moments> moments;
+    for (std::size_t k = 0; k < std::min(kinds.size(), column.values.size()); ++k) {
+        const double value = column.values[k] - column.values.front();
+        if (std::isnan(value)) continue;
+        Moments& of = moments[kinds[k]];
+        of.n += 1.0;
+        of.sum += value;
+        of.squares += value * value;
+    }
+    for (const auto& [kind, a] : moments)
+        for (const auto& [other, b] : moments) {
+            if (a.n < fewest || b.n < fewest || kind == other) continue;
+            const double error = std::sqrt(a.variance() / a.n + b.variance() / b.n);
+            if (std::fabs(a.mean() - b.mean()) > sigmas * error || a.variance() > times * b.variance()) return true;
+        }
+    return false;
+}
+
+// It holds something else.
+bool is_said(const ForeignColumn& column, const ForeignLook& look) {
+    std::vector<std::string> said = look.mapping.axes();
+    for (const char* key : {"mode", "table_rate"})
+        if (look.mapping.has(key)) said.push_back(look.mapping.text(key));
+    return std::ranges::any_of(said, [&](const auto& name) { return &column_named(look.table, name) == &column; });
+}
+
+}  // namespace
+
+void refuse_mixed_rows(const ForeignLook& look) {
+    constexpr std::size_t seldom = 50, fewest = 8;  // rows of a kind; turns of each
+    if (look.mapping.has("sensor")) return;
+    for (const ForeignColumn& column : look.table.columns) {
+        const std::vector<std::int64_t> kinds = kinds_of(column);
+        if (kinds.empty() || is_said(column, look)) continue;
+        const std::vector<Run> runs = runs_of(kinds);
+        const bool is_often = runs.size() * seldom > kinds.size() && runs.size() > fewest;
+        bool is_mixed = names_sensor(column.name);
+        if (!is_mixed && is_often && (!column.is_number || take_turns(runs)))
+            is_mixed = std::ranges::any_of(look.table.columns, [&](const ForeignColumn& other) {
+                return &other != &column && other.is_number && !other.is_part && !rises_as_time(other.values) &&
+                       kinds_of(other).empty() && differ(other, kinds);
+            });
+        if (!is_mixed) continue;
+        const auto other = std::ranges::find_if(kinds, [&](std::int64_t kind) { return kind != kinds.front(); });
+        const auto at = static_cast<std::size_t>(other - kinds.begin());
+        const std::string second = column.is_number
+                                       ? fmt::format("{}", column.values[at])
+                                       : text::excerpt(column.words[static_cast<std::size_t>(*other)], 30, ' ');
+        throw MappingError(fmt::format(
+            "{}, {}: is {} in some rows and {} in others; allowed are the rows of one sensor: {}, or --map sensor=none "
+            "if they are of one",
+            look.table.path, described(column), column.first, second,
+            column.is_number ? std::string{"parted before"} : fmt::format("--map sensor={}", column.first)));
+    }
+}
+
+}  // namespace zlg::logs

@@ -1,0 +1,132 @@
+// Times as a file writes them: counters that begin anew, messages that stand twice.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+#include <zlg/logs/error.hpp>
+
+#include "row_clock.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+// Of all ranges after which times and counters begin anew, in rising order.
+std::vector<double> ranges(bool of_whole) {
+    std::vector<double> all{360.0, 1e9};
+    for (const double second : {1.0, 1e3, 1e6, 1e9})
+        for (const double circle : {3600.0, 43200.0, 86400.0, 604800.0}) all.push_back(circle * second);
+    if (of_whole)
+        for (int bits = 7; bits <= 32; ++bits) all.push_back(std::ldexp(1.0, bits));
+    if (of_whole) all.insert(all.end(), {1e3, 1e4, 1e5, 1e6});
+    std::ranges::sort(all);
+    return all;
+}
+
+double quantile(std::vector<double> values, double share) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, at);
+    return *at;
+}
+
+// A row that comes far sooner than one does, where the next one does not come later for it.
+bool is_again(const std::vector<double>& t, std::size_t k, double usual) {
+    constexpr double soon = 0.1;
+    const double step = t[k] - t[k - 1];
+    const auto is_a_row = [usual](double step_of_two) { return std::fabs(step_of_two / usual - 1.0) < 0.5; };
+    return step > 0.0 && step < soon * usual && (k < 2 || is_a_row(t[k] - t[k - 2])) &&
+           (k + 1 == t.size() || is_a_row(t[k + 1] - t[k - 1]));
+}
+
+}  // namespace
+
+double begin_of_range(std::span<const double> values) {
+    std::vector<double> steps, falls;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (!std::isfinite(values[k])) return 0.0;
+        least = std::min(least, values[k]);
+        most = std::max(most, values[k]);
+        if (k == 0) continue;
+        steps.push_back(values[k] - values[k - 1]);
+        if (steps.back() < 0.0) falls.push_back(steps.back());
+    }
+    if (falls.empty() || 4 * falls.size() > values.size()) return 0.0;
+    const double usual = quantile(std::move(steps), 0.5);
+    if (!(usual > 0.0)) return 0.0;
+    for (const double range : ranges(std::ranges::all_of(values, [](double v) { return v == std::floor(v); }))) {
+        if (most - least >= range) continue;
+        const auto n_plain =
+            std::ranges::count_if(falls, [&](double fall) { return std::fabs(fall + range - usual) <= usual / 2.0; });
+        const bool all_rise =
+            std::ranges::all_of(falls, [&](double fall) { return fall + range > 0.0 && fall + range < range / 2.0; });
+        // A record that was begun anew falls by anything.
+        if (all_rise && 2 * n_plain > std::ssize(falls)) return range;
+    }
+    return 0.0;
+}
+
+double go_on(std::vector<double>& values) {
+    const double range = begin_of_range(values);
+    if (range == 0.0) return 0.0;
+    double turns = 0.0;
+    for (std::size_t k = 1; k < values.size(); ++k) {
+        if (values[k] + turns < values[k - 1]) turns += range;
+        values[k] += turns;
+    }
+    return range;
+}
+
+std::vector<std::string> settle_times(TextTable& read) {
+    if (!read.times) return {};
+    const double range = go_on(read.times->values);
+    if (range == 0.0) return {};
+    return {
+        fmt::format("{}: begins anew after {:.10g}, and is read as going on; rows that are missing are not seen "
+                    "where they fill that range",
+                    described(*read.times), range)};
+}
+
+std::vector<std::string> take_once(TextTable& read, const std::string& path) {
+    if (!read.times || read.times->values.size() < 4) return {};
+    std::vector<double>& t = read.times->values;
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < t.size(); ++k) steps.push_back(t[k] - t[k - 1]);
+    const double usual = quantile(std::move(steps), 0.75);
+    std::vector<std::size_t> again;
+    bool are_same = true;
+    for (std::size_t k = 1; k < t.size(); ++k) {
+        if (!is_again(t, k, usual)) continue;
+        again.push_back(k);
+        are_same = are_same && std::ranges::all_of(read.columns, [k](const TextColumn& column) {
+                       return column.values[k] == column.values[k - 1];
+                   });
+    }
+    if (again.empty()) return {};
+    const double apart = t[again.front()] - t[again.front() - 1];
+    const std::string what = fmt::format(
+        "{}: {} row{} come{} {:.3g} behind the row before, where rows are {:.6g} apart", described(*read.times),
+        again.size(), again.size() == 1 ? "" : "s", again.size() == 1 ? "s" : "", apart, usual);
+    if (!are_same)
+        throw FormatError(fmt::format(
+            "{}, {}, the first in row {}, with other values; allowed are messages that stand once, or --map time=none "
+            "with rate_hz",
+            path, what, again.front() + 1));
+    const auto thin = [&again](std::vector<double>& values) {
+        std::size_t next = 0, to = 0;
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (next < again.size() && again[next] == k)
+                ++next;
+            else
+                values[to++] = values[k];
+        values.resize(to);
+    };
+    thin(t);
+    for (TextColumn& column : read.columns) thin(column.values);
+    return {what + ", with its values, and are left out"};
+}
+
+}  // namespace zlg::logs

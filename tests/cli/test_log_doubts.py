@@ -1,0 +1,247 @@
+"""Evidence of rows that are missing, rows of two sensors, and values that are no measurements: never passed over."""
+
+import json
+import unittest
+
+import numpy
+
+from foreign import Foreign
+from support import run
+
+
+class Doubts(Foreign):
+    N = 6000
+    LOST = ((700, 5), (2000, 17), (4000, 3))
+
+    def keep(self):
+        there = numpy.ones(self.N, bool)
+        for at, n in self.LOST:
+            there[at:at + n] = False
+        return numpy.flatnonzero(there)
+
+    def table(self, name, head, *columns):
+        rows = "\n".join(",".join(str(field) for field in row) for row in zip(*columns))
+        return self.write(name, head + "\n" + rows + "\n")
+
+    def counted(self, path, *said):
+        _, axis = self.mean(path, *said)
+        return axis["samples"], axis["known"], axis["gaps"]
+
+    def all_found(self, path, *said):
+        self.assertEqual(self.counted(path, *said), (self.N, self.N - 25, 3))
+
+    def w(self, n=None):
+        return [f"{x:.6f}" for x in self.rates(n or self.N)]
+
+
+class Holes(Doubts):
+    def test_counters_of_any_width_and_name(self):
+        keep = self.keep()
+        for bits in (7, 8, 10, 16, 24, 32):
+            for name in ("counter", "PacketCounter", "field.header.seq", "cnt8", "xyzzy"):
+                path = self.table("c.csv", f"{name},w_dph", (keep + 2**bits - 50) % 2**bits, self.w(len(keep)))
+                self.all_found(path, "--map", "rate_hz=100")
+        for step in (4, 8):
+            self.all_found(self.table("c.csv", "loopIteration,w_dph", step * keep, self.w(len(keep))), "--map", "rate_hz=100")
+
+    def test_times_that_begin_anew(self):
+        keep = self.keep()
+        for name, times in (("time_us", (2**32 - 10_000_000 + keep * 10_000) % 2**32),
+                            ("tow_s", numpy.round((604790 + keep * 0.01) % 604800, 3)),
+                            ("tow_ms", (604790_000 + keep * 10) % 604800_000),
+                            ("time", [f"{h // 3600 % 24:02d}:{h // 60 % 60:02d}:{h % 60:02d}.{k % 100 * 10:03d}"
+                                      for k in keep for h in [86390 + k // 100]])):
+            self.all_found(self.table("t.csv", f"{name},w_dph", times, self.w(len(keep))))
+
+    def test_seconds_and_their_fraction_in_two_columns(self):
+        keep = self.keep()
+        t = 1_700_000_000_123_456_789 + keep * 10_000_000
+        w = self.w(len(keep))
+        for parts, name in ((10**9, "nanosec"), (10**6, "usec")):
+            head = f"header.stamp.sec,header.stamp.{name},w_dph"
+            now = t // (10**9 // parts)
+            self.all_found(self.table("s.csv", head, now // parts, now % parts, w))
+            bare = self.table("s.csv", "# no names", now // parts, now % parts, w)
+            self.all_found(bare, "--map", "axis=3", "--map", "unit=deg/h", "--map", "holds=rate")
+
+    def test_dates_of_three_countries(self):
+        keep = self.keep()
+        w = self.w(len(keep))
+        def stamp(k, form):
+            ms = 24 * 3600_000 - 5000 + k * 10  # midnight within
+            day, ms = 21 + ms // 86400_000, ms % 86400_000
+            h, m, s = ms // 3600_000, ms // 60_000 % 60, ms % 60_000 / 1000
+            return form.format(day=day, h=h, h12=(h + 11) % 12 + 1, m=m, s=s, half="AM" if h < 12 else "PM")
+        for form in ("9/{day}/2023 {h12}:{m:02d}:{s:06.3f} {half}", "{day}/09/2023 {h:02d}:{m:02d}:{s:06.3f}",
+                     "2023/09/{day} {h:02d}:{m:02d}:{s:06.3f}", "{day}.09.2023 {h:02d}:{m:02d}:{s:06.3f}"):
+            path = self.table("d.csv", "Time,w_dph", [stamp(int(k), form) for k in keep], w)
+            self.all_found(path, "--map", "rate_hz=100")
+            self.all_found(path)
+
+    def test_days(self):
+        keep = self.keep()
+        days = [f"{59215 + k / 1440:.9f}" for k in keep]
+        self.all_found(self.table("mjd.csv", "MJD,w_dph", days, self.w(len(keep))))
+        self.all_found(self.table("t.csv", "t,w_dph", days, self.w(len(keep))), "--map", "time_unit=d")
+
+    def test_files_of_one_record(self):
+        n, w = 3000, self.rates(3000)
+        parts = [range(0, 1000), range(1000, 1950), range(2000, 3000)]
+        stamp = lambda k: f"2026-03-01 23:59:{40 + k / 100:06.3f}" if k < 2000 else f"2026-03-02 00:00:{(k - 2000) / 100:06.3f}"
+        for head, form, said in (("t_s,w_dph", lambda k: f"{k / 100:.2f}", []), ("when,w_dph", stamp, []),
+                                 ("seq,w_dph", lambda k: k % 256, ["--map", "rate_hz=100"])):
+            paths = [self.table(f"part{i}.csv", head, [form(k) for k in part], [f"{w[k]:.6f}" for k in part]) for i, part in enumerate(parts)]
+            out = self.folder / "a.csv"
+            self.succeed("import", *paths, *said, "--out", out, "--force")
+            _, axis = self.mean(out)
+            self.assertEqual((axis["samples"], axis["known"], axis["gaps"]), (n, n - 50, 1))
+            if head != "seq,w_dph":
+                self.refuse((2, 3), "import", paths[1], paths[0], "--out", out, "--force", *said)
+        other = self.table("other.csv", "t_s,v_dph", [1, 2, 3], [1, 2, 4])
+        self.refuse(2, "import", paths[0], other, says=("other.csv", "columns"))
+
+    def test_what_is_not_used_is_named(self):
+        n = 400
+        t = numpy.arange(n) * 0.01
+        noted = run("analyze", self.table("w.csv", "Time,w_dph", ["T" + str(k) for k in range(n)], self.w(n)), "--map", "rate_hz=100")
+        self.assertIn("'Time'", noted.stderr)
+        noted = run("analyze", self.table("r.csv", "heading,w_dph", numpy.round((300 + 7.3 * numpy.arange(n)) % 360, 3), self.w(n)),
+                    "--map", "rate_hz=100")
+        self.assertIn("'heading'", noted.stderr)
+        both = self.table("two.csv", "time_s,unix_s,w_dph", t, t * 2, self.w(n))
+        self.refuse(2, "analyze", both, "--map", "time=1", "--map", "rate_hz=50", says=("'time_s'", "0.01"))
+
+
+class Sensors(Doubts):
+    def by_turns(self, names):
+        n, k = 2000, numpy.arange(2000)
+        kinds = [names[i] for i in k % len(names)]
+        w = [f"{x:.5f}" for x in self.rng.normal(0.03, 0.001, n) + 9.81 * (k % len(names) == 1)]
+        return kinds, w
+
+    def test_by_turns_whatever_the_column_is_called(self):
+        said = ["--map", "axis=w", "--map", "unit=rad/s", "--map", "holds=rate", "--map", "rate_hz=200"]
+        for column in ("type", "name", "topic", "msg"):
+            for names in (("GYRO", "ACC"), ("GYRO", "ACC", "MAG"), (3, 7)):
+                path = self.table("m.csv", f"{column},w", *self.by_turns(names))
+                self.refuse(2, "analyze", path, *said, says=(f"'{column}'", str(names[0]), str(names[1]), "--map sensor="))
+        path = self.table("m.csv", "type,w", *self.by_turns(("GYRO", "ACC")))
+        mean, axis = self.mean(path, *said[:6], "--map", "rate_hz=100", "--map", "sensor=GYRO")
+        self.assertEqual(axis["samples"], 1000)
+        self.assertAlmostEqual(mean, 0.03 * 206264.806, delta=30)
+        self.mean(path, *said, "--map", "sensor=none")
+
+    def test_sentences(self):
+        rows = []
+        for k in range(1000):
+            rows.append(f"$GYRO,{k / 100:.3f},{self.rng.normal(0.03, 0.001):.6f}*4A")
+            rows.append(f"$ACCL,{k / 100 + .005:.3f},{self.rng.normal(9.81, 0.01):.4f},7*1B")
+        path = self.write("n.txt", "\n".join(rows) + "\n")
+        said = ["--map", "unit=rad/s", "--map", "holds=rate", "--map", "time_unit=s"]
+        self.refuse((2, 3), "analyze", path, *said)
+        self.assertAlmostEqual(self.mean(path, *said, "--map", "sensor=$GYRO")[0], 0.03 * 206264.806, delta=30)
+
+    def test_words_that_are_no_sensor(self):
+        n = 1000
+        for words in (["ok"] * n, ["OK" if k % 97 else "WARN" for k in range(n)], ["L" if k // 100 % 2 else "R" for k in range(n)],
+                      list(self.rng.choice(["a", "b", "c"], n)), list(self.rng.integers(0, 3, n)), [k % 2 for k in range(n)]):
+            self.mean(self.table("w.csv", "t_s,state,w_dph", numpy.arange(n) / 100, words, self.w(n)), "--map", "axis=w_dph")
+
+
+class NoMeasurements(Doubts):
+    def doubts(self, w, *said, name="w_dps"):
+        path = self.table("w.csv", f"t_s,{name}", [f"{k / 100:.2f}" for k in range(len(w))], w)
+        result = run("analyze", path, "--map", "axis=2", "--map", "holds=rate", *said, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)["axes"][0]["doubts"], path
+
+    def test_rows_that_repeat(self):
+        for times in (2, 3, 5, 10):
+            (line,), path = self.doubts(numpy.round(numpy.repeat(self.rng.normal(0, 1, 6000 // times), times), 4))
+            self.assertIn(f"each value stands {times} times", line)
+        page = self.folder / "p.html"
+        text = run("analyze", path, "--map", "holds=rate", "--strict", "--out", page)
+        self.assertEqual(text.returncode, 1)
+        for shown in (text.stdout, page.read_text()):
+            self.assertIn("each value stands 10 times", shown)
+        out = self.folder / "a.csv"
+        self.assertEqual(run("import", path, "--map", "holds=rate", "--strict", "--out", out).returncode, 1)
+
+    def test_a_value_that_stands(self):
+        w = numpy.round(self.rng.normal(0, 1, 6000), 4)
+        w[2000:3000] = w[2000]
+        (line,), _ = self.doubts(w)
+        self.assertIn("rows 2001 to 3000", line)
+
+    def test_rails(self):
+        t = numpy.arange(6000) / 100
+        for low, high in ((-250, 250), (-1e9, 250), (-250, 1e9)):
+            (line,), _ = self.doubts(numpy.round(numpy.clip(100 + 400 * numpy.sin(t) + self.rng.normal(0, 1, 6000), low, high), 4))
+            self.assertEqual(("at 250" in line, "at -250" in line), (high == 250, low == -250))
+
+    def test_what_measures_has_no_doubts(self):
+        t = numpy.arange(6000) / 100
+        noise = self.rng.normal(0, 1, 6000)
+        for w in (noise, numpy.round(noise), numpy.round(3 * noise), numpy.round(0.5 * noise), numpy.round(100 * numpy.sin(t)),
+                  numpy.round(noise * 30, 2), numpy.round(100 * numpy.sin(t) + 0.3 * noise), numpy.round(noise, 1),
+                  numpy.where(t < 30, 0, numpy.round(50 * noise))):
+            doubts, path = self.doubts(numpy.round(w, 6))
+            self.assertEqual(doubts, [])
+            self.succeed("analyze", path, "--map", "axis=2", "--map", "holds=rate", "--strict")
+
+    def test_messages_that_stand_twice(self):
+        rows = []
+        for k in range(3000):
+            rows += [(k * 0.01, self.rng.normal())] * (2 if k % 3 == 1 else 1)
+        t = [f"{row[0] + (2e-5 if k and rows[k - 1] == row else 0):.6f}" for k, row in enumerate(rows)]
+        path = self.table("t.csv", "t_s,w_dps", t, [f"{row[1]:.6f}" for row in rows])
+        _, axis = self.mean(path)
+        self.assertEqual((axis["samples"], axis["rate_hz"]), (3000, 100))
+        self.assertIn("1000 rows come 2e-05 behind", axis["doubts"][0])
+        other = self.table("t.csv", "t_s,w_dps", t, self.w(len(t)))
+        self.refuse(3, "analyze", other, says=("row 3", "other values", "time=none"))
+
+
+class Heads(Doubts):
+    def test_a_scale_is_asked_for(self):
+        counts = self.rng.integers(-300, 300, 400)
+        for head in ("gscale,0.00122", "# sensitivity 131 LSB/dps", "# Scale factor: 0.01", "# Skalierung = 0,5"):
+            path = self.table("h.csv", f"{head}\nt_s,w_dps", numpy.arange(400) / 100, counts)
+            self.refuse(2, "analyze", path, says=("--map scale=", head.strip("# ")[:6]))
+            mean, _ = self.mean(path, "--map", "scale=0.5")
+            self.assertAlmostEqual(mean, counts.mean() * 0.5 * 3600, delta=1e-6 * 3600)
+        self.mean(self.table("h.csv", "# Full scale: 250 dps\nt_s,w_dps", numpy.arange(400) / 100, counts))
+
+    def test_encodings(self):
+        rows = "".join(f"{k / 100:.2f};{x}\n" for k, x in enumerate(self.w(400)))
+        text = "Время, с;Угловая скорость, град/ч\n" + rows
+        for encoding, said in (("utf-8", []), ("cp1251", ["--map", "encoding=windows-1251"])):
+            path = self.folder / "r.csv"
+            path.write_bytes(text.encode(encoding))
+            if said:
+                self.refuse(2, "analyze", path, says=("encoding=windows-1251", "latin-1"))
+            _, axis = self.mean(path, *said)
+            self.assertEqual((axis["rate_hz"], axis["holds"]), (100, "rates, deg/h"))
+
+    def test_the_mode_of_a_plain_rate(self):
+        n = 6000
+        mode = numpy.where(numpy.arange(n) // 600 % 2 == 0, 1, -1)
+        w = [f"{x:.6f}" for x in 10 + 2 * mode + self.rng.normal(0, 0.01, n)]
+        for plus, column in (([], mode), (["--map", "mode_plus=0"], (1 - mode) // 2)):
+            path = self.table("m.csv", "t_s,w_dph,state", numpy.arange(n) / 100, w, column)
+            _, axis = self.mean(path, "--map", "mode=state", *plus)
+            self.assertAlmostEqual(axis["modes"]["magnetic_arcsec_s"]["value"], 2, delta=0.01)
+            out = self.folder / "a.csv"
+            self.succeed("import", path, "--map", "mode=state", *plus, "--out", out, "--force")
+            _, again = self.mean(out)
+            self.assertAlmostEqual(again["modes"]["magnetic_arcsec_s"]["value"], 2, delta=0.01)
+
+    def test_missing_as_microsoft_writes_it(self):
+        w = self.w(400)
+        for k, word in ((10, "-1.#IND"), (11, "1.#QNAN"), (12, "-1.#IND00"), (13, "#DIV/0!")):
+            w[k] = word
+        self.assertEqual(self.counted(self.table("m.csv", "t_s,w_dph", numpy.arange(400) / 100, w)), (400, 396, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()
