@@ -11,6 +11,10 @@ namespace {
 // four is learnt from, 2 s of 5 ms. A hundredth of the noise of a half is then left in w.
 constexpr double memory_ticks = 100.0;
 
+// By which w is led on from tick to tick, so that no even drift is left in it: both at once as quickly as can be
+// without swinging, a double pole at 1 - 1/200.
+constexpr double drift_gain = 0.25 / square(memory_ticks);
+
 constexpr double max_change = 0.0133;
 constexpr double max_fade = 0.2;
 
@@ -59,8 +63,11 @@ bool is_possible(double weight) noexcept { return weight < max_weight && weight 
 void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const BalancedHalf& half) noexcept {
     if (s.n_ticks < limits.balance_ticks) s.n_ticks += 1.0;
     const double n = s.n_ticks < memory_ticks ? s.n_ticks : memory_ticks;
-    const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5) / n;
-    const double weight = s.weight * (1.0 + odd) / (1.0 - odd);
+    const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5);
+    // What leaps is no drift.
+    if (n == memory_ticks) s.drift += drift_gain * limited(odd, max_change);
+    const double step = odd / n + s.drift;
+    const double weight = s.weight * (1.0 + step) / (1.0 - step);
     // A beam that fades within minutes by more than a fifth comes back: followed all the way, it would then be too
     // bright.
     const bool is_near = s.n_ticks < memory_ticks || size(weight - s.slow_weight) < max_fade * s.slow_weight ||
