@@ -65,14 +65,17 @@ void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const Balan
     const double n = s.n_ticks < memory_ticks ? s.n_ticks : memory_ticks;
     const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5);
     // What leaps is no drift.
-    if (n == memory_ticks) s.drift += drift_gain * limited(odd, max_change);
-    const double step = odd / n + s.drift;
+    const double drift = s.drift + (n < memory_ticks ? 0.0 : drift_gain * limited(odd, max_change));
+    const double step = odd / n + drift;
     const double weight = s.weight * (1.0 + step) / (1.0 - step);
-    // A beam that fades within minutes by more than a fifth comes back: followed all the way, it would then be too
-    // bright.
-    const bool is_near = s.n_ticks < memory_ticks || size(weight - s.slow_weight) < max_fade * s.slow_weight ||
+    // A beam that leaps by more than a fifth comes back: followed all the way, it would then be too bright.
+    const bool is_near = n < memory_ticks || size(odd) < max_change ||
+                         size(weight - s.slow_weight) < max_fade * s.slow_weight ||
                          size(weight - s.slow_weight) < size(s.weight - s.slow_weight);
-    if (is_near && is_possible(weight)) s.weight = weight;
+    if (is_near && is_possible(weight)) {
+        s.weight = weight;
+        s.drift = drift;
+    }
     s.level += (half.light - s.level) / n;
     s.slow_weight += (s.weight - s.slow_weight) / s.n_ticks;
     s.changes = s.n_ticks >= memory_ticks && size(s.weight - s.slow_weight) > max_change * s.slow_weight;
