@@ -65,12 +65,13 @@ void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const Balan
     const double n = s.n_ticks < memory_ticks ? s.n_ticks : memory_ticks;
     const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5);
     // What leaps is no drift.
-    const double drift = s.drift + (n < memory_ticks ? 0.0 : drift_gain * limited(odd, max_change));
+    const bool leaps = n < memory_ticks || size(odd) > max_change;
+    const double drift = leaps ? 0.0 : s.drift + drift_gain * odd;
     const double step = odd / n + drift;
     const double weight = s.weight * (1.0 + step) / (1.0 - step);
-    // A beam that leaps by more than a fifth comes back: followed all the way, it would then be too bright.
-    const bool is_near = n < memory_ticks || size(odd) < max_change ||
-                         size(weight - s.slow_weight) < max_fade * s.slow_weight ||
+    // A beam that fades within minutes by more than a fifth comes back: followed all the way, it would then be too
+    // bright.
+    const bool is_near = n < memory_ticks || size(weight - s.slow_weight) < max_fade * s.slow_weight ||
                          size(weight - s.slow_weight) < size(s.weight - s.slow_weight);
     if (is_near && is_possible(weight)) {
         s.weight = weight;
