@@ -231,9 +231,9 @@ void observe(const GyroControlConfig& config, GyroControlState& state, const Sen
     read_slow(state, frame, seen);
     // The counter is judged only by counts of a gyro that lases in its mode; by phase as one of half counts, whose bit
     // 0 is no longer within every sigma.
-    const std::uint64_t halves = 2 * frame.counter + (seen.fringe.fringe >= 0.5f ? 1 : 0);
-    seen.bit_stuck = step(state.counter_monitor, seen.counted && seen.lased && state.was_lit,
-                          config.fringe.reads ? halves : frame.counter);
+    std::uint64_t reading = frame.counter;
+    if (config.fringe.reads) reading = 2 * reading + (seen.fringe.fringe >= 0.5f ? 1 : 0);
+    seen.bit_stuck = step(state.counter_monitor, seen.counted && seen.lased && state.was_lit, reading);
     read_span(config, state, seen);
     decide_valid(config, state, seen);
     find_steadiness(config, state, seen);

@@ -187,11 +187,11 @@ double pushed_arcsec2(const CompensationConstants& gyro, const RelockDriftConfig
     // Variance of the difference of two mean squares of n samples: by noise alone, and of a perimeter that swings.
     const double s2 = square(gyro.light_noise.value());
     const double seen_lambda2 = first_lambda2 + second_lambda2;
-    const double settled_arcsec2 = 4.0 * square(unit * s2) / gyro.light_samples;
-    const bool swings = seen_lambda2 > swinging_ratio * s2;
     const double hidden_arcsec2 = hidden_part * variance_arcsec2;
     const bool is_hidden = square(unit * change_lambda2) <= hidden_arcsec2;
-    if (is_hidden && !(swings && settled_arcsec2 * seen_lambda2 > hidden_arcsec2 * s2)) return 0.0;
+    if (is_hidden && 4.0 * square(unit) * s2 * seen_lambda2 <= hidden_arcsec2 * gyro.light_samples) return 0.0;
+    const double settled_arcsec2 = 4.0 * square(unit * s2) / gyro.light_samples;
+    const bool swings = seen_lambda2 > swinging_ratio * s2;
     RelockDriftState closing{.armed = true};
     const FalseAngle left = step(gyro, config, closing, tick).tick;
     const bool is_real = left.known && (swings || square(left.value_arcsec) > unsubtracted_gate_sq * settled_arcsec2);
