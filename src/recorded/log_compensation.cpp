@@ -55,8 +55,11 @@ std::string presumed(const config::Config& config, const logs::RawHeader& log, R
     std::vector<std::string_view> keys{"gyro.bias_hz", "drift.random_walk_arcsec_sqrt_s"};
     if (log.has_temperature) keys.push_back("gyro.bias_temperature_coefficient_per_c");
     if (log.has_edge_offset) keys.push_back("gyro.bias_edge_s");
-    if (relock != RelockMethod::none && relock != RelockMethod::frequency)
+    if (relock != RelockMethod::none && relock != RelockMethod::frequency) {
         keys.insert(keys.end(), {"gyro.bias_chi", "gyro.light_noise_lambda"});
+        // Who gives chi alone says that the loss is a parabola.
+        if (!config::is_given(config, "gyro.bias_chi")) keys.push_back("gyro.bias_chi_higher");
+    }
     if (relock == RelockMethod::joint && log.light_samples > 0) keys.push_back("gyro.discriminator_per_lambda");
     const std::string list = config::not_given(config, keys);
     return list.empty() ? list

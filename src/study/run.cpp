@@ -91,6 +91,10 @@ public:
         result.fingerprint = fingerprint_.text();
         result.health_raised = health_raised_;
         result.invalid_ticks = invalid_ticks_;
+        if (lost_ticks_ > 0)
+            result.warnings.push_back(
+                fmt::format("{} of {} ticks are lost (flag unrepaired): what the gyro turned in them is not known",
+                            lost_ticks_, result.ticks));
         result.switches = switch_lines();
         result.tally = count_.tally();
         result.whole_count_ticks = whole_count_ticks_;
@@ -136,6 +140,7 @@ private:
         fingerprint_.take(row);
         switches_.take(row);
         if ((row.flags & core::flag_invalid) != 0 && (row.flags & core::flag_switching) == 0) ++invalid_ticks_;
+        lost_ticks_ += (row.flags & core::flag_unrepaired) != 0;
         if (task_.has_figures) magnify(waiting.shown, row);
         if (task_.on_row) task_.on_row(row, waiting.true_arcsec);
     }
@@ -207,6 +212,7 @@ private:
     std::uint32_t health_ = 0;
     std::uint32_t health_raised_ = 0;
     std::int64_t invalid_ticks_ = 0;
+    std::int64_t lost_ticks_ = 0;  // without a sigma
     std::int64_t whole_count_ticks_ = 0, fringe_lost_ticks_ = 0;
     std::map<std::int64_t, rig::LoopHalf> events_;  // by the first tick of the gap: the half in which its lock was seen
     // By bit of health: the first half, and how many.

@@ -104,7 +104,9 @@ bool is_valid(const core::AngleRow& row) {
 // Of the first fault; without one, of what is called after.
 double begin_s(const FaultTrial& trial) {
     if (!trial.fault) return trial.watched_s;
-    return trial.other ? std::min(trial.fault->at_s, trial.other->at_s) : trial.fault->at_s;
+    double first_s = trial.fault->at_s;
+    for (const twin::Fault& other : trial.others) first_s = std::min(first_s, other.at_s);
+    return first_s;
 }
 
 // A range of ticks, the last one excluded.
@@ -199,6 +201,7 @@ FaultOutcome judged(const FaultTrial& trial, const GyroHistory& faulty, const Gy
     }
     out.not_finite = faulty.not_finite;
     const std::size_t n = faulty.rows.size();
+    out.ticks = static_cast<std::int64_t>(n);
     const Span watched{std::min(n, tick_at(trial.config, begin_s(trial))),
                        std::min(n, tick_at(trial.config, trial.watched_s) + 1)};
     judge_ticks(faulty, watched, out);
@@ -215,12 +218,13 @@ FaultOutcome judged(const FaultTrial& trial, const GyroHistory& faulty, const Gy
 
 FaultOutcome run(const FaultTrial& trial) {
     config::Config faulty = trial.config;
-    for (const auto& fault : {trial.fault, trial.other}) {
-        if (!fault) continue;
-        faulty.faults.kind.push_back(fault->kind);
-        faulty.faults.at_s.push_back(fault->at_s);
-        faulty.faults.duration_s.push_back(fault->duration_s);
-        faulty.faults.size.push_back(fault->size);
+    std::vector<twin::Fault> all = trial.others;
+    if (trial.fault) all.insert(all.begin(), *trial.fault);
+    for (const twin::Fault& fault : all) {
+        faulty.faults.kind.push_back(fault.kind);
+        faulty.faults.at_s.push_back(fault.at_s);
+        faulty.faults.duration_s.push_back(fault.duration_s);
+        faulty.faults.size.push_back(fault.size);
     }
     try {
         const GyroHistory history = simulate(faulty, trial.end_s);

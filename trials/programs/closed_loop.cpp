@@ -115,6 +115,9 @@ Work faults(CLI::App& app) {
     app.add_option("FAULTS", campaign->faults)->check(CLI::PositiveNumber);
     app.add_option("KIND", campaign->kinds, "of docs/faults.md")->transform(CLI::CheckedTransformer(kinds));
     app.add_option("--fidelity", campaign->fidelity)->transform(CLI::CheckedTransformer(fidelities));
+    app.add_flag_callback(
+        "--bench", [campaign] { campaign->surroundings = Surroundings::bench; },
+        "unequal light, fast motions, both readouts, up to 300 s, from power-up on, two to six at once");
     add_seed_and_threads(app, *campaign);
     return [campaign] {
         const std::vector<FaultFigures> figures = run(*campaign);

@@ -71,11 +71,18 @@ void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFram
     o.coil = step(c.limits, s.coil_monitor, o.commuted.sign, frame.coil_current_a);
 }
 
+// What is known of the offset, from half to half of a re-lock that contradicts it: in 40 halves an eighth is left.
+constexpr double forgotten_by_a_fault = 0.95;
+
 void balance_light(const GyroControlConfig& c, GyroControlState& s, const Observation& o, BalancedHalf half) noexcept {
     half.is_read = half.is_read && !o.monitored.stuck && !o.monitored.noisy;
-    // The jump of a beam that has faded is not that of an offset.
-    if (o.monitored.has_jump && half.is_read && !s.light_monitor.is_unbalanced)
-        learn_offset(s.light_balance, half, s.light_monitor.jump, c.detector.discriminator_per_lambda);
+    // The jump of a beam that has faded is not that of an offset; but one in switch after switch was no fading.
+    if (o.monitored.has_jump && half.is_read) {
+        if (s.light_monitor.is_unbalanced)
+            s.light_balance.weights *= forgotten_by_a_fault;
+        else
+            learn_offset(s.light_balance, half, s.light_monitor.jump, c.detector.discriminator_per_lambda);
+    }
     half.has_faded = s.light_monitor.is_unbalanced;
     follow(c.limits, s.light_balance, half);
 }
@@ -222,8 +229,11 @@ void observe(const GyroControlConfig& config, GyroControlState& state, const Sen
     read_bias(config, state, frame, seen);
     read_light(config, state, frame, seen);
     read_slow(state, frame, seen);
-    // The counter is judged only by counts of a gyro that lases in its mode.
-    seen.bit_stuck = step(state.counter_monitor, seen.counted && seen.lased && state.was_lit, frame.counter);
+    // The counter is judged only by counts of a gyro that lases in its mode; by phase as one of half counts, whose bit
+    // 0 is no longer within every sigma.
+    std::uint64_t reading = frame.counter;
+    if (config.fringe.reads) reading = 2 * reading + (seen.fringe.fringe >= 0.5f ? 1 : 0);
+    seen.bit_stuck = step(state.counter_monitor, seen.counted && seen.lased && state.was_lit, reading);
     read_span(config, state, seen);
     decide_valid(config, state, seen);
     find_steadiness(config, state, seen);

@@ -21,8 +21,10 @@ constexpr double jump_deviations = 8.0;  // at 5, one of 400 switches without a 
 // An imbalance that moves the reading by this much; light noise in the mean of a half is ten times smaller.
 constexpr double min_unbalanced_lambda = 0.02;
 
-// Noise so large that the mean of a half is no guide.
+// Noise so large that the mean of a half is no guide, in this half or in a mean of four: three differences alone miss
+// it in one half of forty.
 constexpr double max_steering_noise_lambda = 0.05;
+constexpr double noise_followed = 0.25;
 constexpr std::size_t min_noise_samples = 4;
 
 // Relative to the bias: several times its rounding, and nearly what 0.1 wavelength costs it (chi dl^2 = 0.036).
@@ -271,7 +273,9 @@ void look_for_noise(const MonitorLimits& c, LightMonitorState& s, const LightMon
     out.withheld = is_noisy || s.n_noisy > 0;
     if (out.withheld) out.has_mean_square = false;
     out.noisy = debounced(s.n_noisy, is_noisy, spoilt_debounce);
-    if (is_noisy && found_lambda2 > max_steering_noise_lambda * max_steering_noise_lambda) in.read.usable = false;
+    s.noise_lambda2 = is_noisy ? s.noise_lambda2 + noise_followed * (found_lambda2 - s.noise_lambda2) : 0.0;
+    const double worse_lambda2 = found_lambda2 > s.noise_lambda2 ? found_lambda2 : s.noise_lambda2;
+    if (is_noisy && worse_lambda2 > square(max_steering_noise_lambda)) in.read.usable = false;
 }
 
 }  // namespace

@@ -97,7 +97,19 @@ TEST(LightBalance, TheWeightFollowsWithinItsMemory) {
     gyro.ticks(1000);
     gyro.gain_b = 1.001;
     gyro.ticks(100);
-    EXPECT_NEAR((1.0 - gyro.state.weight) / 0.001, 1.0 - std::exp(-1.0), 0.005);
+    // After a step, of a double pole at 1 - 1/200: (1 - n/200) exp(-n/200) is left.
+    EXPECT_NEAR((1.0 - gyro.state.weight) / 0.001, 1.0 - 0.5 * std::exp(-0.5), 0.005);
+}
+
+// An even drift leaves nothing; a mean of 100 ticks would be 1e-5 behind where a tick makes 1e-7 of it.
+TEST(LightBalance, AnEvenDriftOfAPhotodiodeLeavesNothing) {
+    Gyro gyro;
+    gyro.ticks(1000);
+    for (int k = 0; k < 4000; ++k) {
+        gyro.gain_b *= 1.0 + 1e-7;
+        gyro.ticks(1);
+    }
+    EXPECT_NEAR(gyro.gain_b * weight_of(gyro.state).weight, 1.0, 2e-7);
 }
 
 // Where the detuning stands in the sense of `follow` its signal falls from S_2/r to S_2 <= .01/(r^-2 - 1) within the

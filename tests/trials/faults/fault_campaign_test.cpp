@@ -78,6 +78,68 @@ TEST(FaultCampaign, ABiasCurrentLostForLongerThanASecondComesBack) {
     }
 }
 
+// Default motion, by phase. What comes late holds the rotation of the half before.
+TEST(FaultCampaign, FramesThatStayLateAreNeverTakenForThoseOfTheirHalf) {
+    FaultTrial trial;
+    trial.config.gyro.readout = config::Readout::phase;
+    trial.fault = twin::Fault{FaultKind::frame_late, 3.0, 85.0, 0.0};
+    trial.watched_s = 89.0;
+    trial.end_s = 92.0;
+    const FaultOutcome out = run(trial);
+    EXPECT_EQ(out.wrong, 0);
+    EXPECT_TRUE(out.recovered);
+}
+
+TEST(FaultCampaign, AStuckBitZeroIsFoundByPhase) {
+    for (const auto motion : {config::MotionKind::constant, config::MotionKind::sine}) {
+        FaultTrial trial;
+        trial.config.gyro.readout = config::Readout::phase;
+        trial.config.motion.kind = motion;
+        trial.config.motion.rate_arcsec_s = 1000.0;
+        trial.fault = twin::Fault{FaultKind::counter_bit_stuck, 10.0, 20.0, 0.0};
+        trial.watched_s = 31.0;
+        trial.end_s = 33.0;
+        const FaultOutcome out = run(trial);
+        EXPECT_TRUE(out.detected);
+        EXPECT_LE(out.wrong, 60) << "of 4000 ticks";
+        EXPECT_TRUE(out.recovered);
+    }
+}
+
+// The light shows the squares of the detuning through its noise: what that hides is in sigma.
+TEST(FaultCampaign, ASwingingPerimeterIsWithinSigmaByPhase) {
+    FaultTrial trial;
+    trial.config.gyro.readout = config::Readout::phase;
+    trial.config.motion.kind = config::MotionKind::rest;
+    for (const auto& [kind, size] : {std::pair{FaultKind::vibration, 0.05}, {FaultKind::light_noisy, 0.07}}) {
+        trial.fault = twin::Fault{kind, 10.0, 20.0, size};
+        trial.watched_s = 31.0;
+        trial.end_s = 33.0;
+        EXPECT_EQ(run(trial).wrong, 0) << twin::facts(kind).name;
+    }
+}
+
+TEST(FaultCampaign, OnABenchLightDiffersFaultsLastAndManyActAtOnce) {
+    int from_power_up = 0, by_phase = 0;
+    std::size_t most = 0;
+    double longest_s = 0.0, widest = 1.0;
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const FaultTrial trial =
+            random_trial(FaultKind::shock, seed, config::Fidelity::averaged, true, Surroundings::bench);
+        most = std::max(most, trial.others.size());
+        EXPECT_GE(trial.others.size(), 1u);
+        from_power_up += trial.fault->at_s == 0.0;
+        by_phase += trial.config.gyro.readout == config::Readout::phase;
+        longest_s = std::max(longest_s, trial.fault->duration_s);
+        widest = std::max(widest, trial.config.light.gain_b);
+    }
+    EXPECT_EQ(most, 5u);
+    EXPECT_NEAR(from_power_up, 60, 28);
+    EXPECT_NEAR(by_phase, 100, 33);
+    EXPECT_GT(longest_s, 200.0);
+    EXPECT_GT(widest, 1.35);
+}
+
 // Right after a closing, where a re-lock falsifies the sum of the counter: at 15 ms after the opening the loop is
 // closed.
 TEST(FaultCampaign, AJerkRightAfterASwitchIsWithinSigma) {

@@ -15,6 +15,13 @@ constexpr double unsubtracted_gate_sq = 9.0;
 // Part of the variance of a tick up to which a false angle is not looked for.
 constexpr double hidden_part = 0.25;
 
+// Of the sum of two mean squares, over the variance of the light's noise, of which it has two: above, the perimeter
+// swings. Four deviations of that sum, of 16 samples a half.
+constexpr double swinging_ratio = 4.0;
+
+// What a settled perimeter may be off, rms, where the light does not tell.
+constexpr double unseen_detuning_lambda = 0.01;
+
 // No rotation is that large, whatever the scale; its square and any sum of such angles are still numbers.
 constexpr double max_false_angle_arcsec = 1e30;
 
@@ -160,14 +167,20 @@ double pushed_arcsec2(const CompensationConstants& gyro, const RelockDriftConfig
     if (state.armed && state.since_gap < config.ticks) return 0.0;
     if (config.method == RelockMethod::none || config.method == RelockMethod::frequency) return 0.0;
     const double unit = arcsec_per_lambda2(gyro, gyro.bias);
-    const double change_lambda2 = loss_at(gyro.bend, tick.second.detuning_sq_lambda2).value -
-                                  loss_at(gyro.bend, tick.first.detuning_sq_lambda2).value;
-    if (square(unit * change_lambda2) <= hidden_part * variance_arcsec2) return 0.0;
+    const double first_lambda2 = tick.first.detuning_sq_lambda2, second_lambda2 = tick.second.detuning_sq_lambda2;
+    if (!(first_lambda2 > 0.0 && second_lambda2 > 0.0)) return square(unit) * square(square(unseen_detuning_lambda));
+    const double change_lambda2 = loss_at(gyro.bend, second_lambda2).value - loss_at(gyro.bend, first_lambda2).value;
+    // Variance of the difference of two mean squares of n samples: by noise alone, and of a perimeter that swings.
+    const double s2 = square(gyro.light_noise.value());
+    const double seen_lambda2 = first_lambda2 + second_lambda2;
+    const double hidden_arcsec2 = hidden_part * variance_arcsec2;
+    const bool is_hidden = square(unit * change_lambda2) <= hidden_arcsec2;
+    if (is_hidden && 4.0 * square(unit) * s2 * seen_lambda2 <= hidden_arcsec2 * gyro.light_samples) return 0.0;
+    const double settled_arcsec2 = 4.0 * square(unit * s2) / gyro.light_samples;
+    const bool swings = seen_lambda2 > swinging_ratio * s2;
     RelockDriftState closing{.armed = true};
     const FalseAngle left = step(gyro, config, closing, tick).tick;
-    // Of the difference of two mean squares of n samples of noise.
-    const double settled_arcsec2 = 4.0 * square(unit * square(gyro.light_noise.value())) / gyro.light_samples;
-    const bool is_real = left.known && square(left.value_arcsec) > unsubtracted_gate_sq * settled_arcsec2;
+    const bool is_real = left.known && (swings || square(left.value_arcsec) > unsubtracted_gate_sq * settled_arcsec2);
     return is_real ? square(left.value_arcsec) + left.variance_arcsec2 : 0.0;
 }
 

@@ -18,14 +18,15 @@ namespace zlg::trials {
 struct FaultTrial {
     config::Config config;             // [faults] empty
     std::optional<twin::Fault> fault;  // none: what the same figures say of a gyro without
-    std::optional<twin::Fault> other;  // at about the same time
+    std::vector<twin::Fault> others;   // at about the same time
     double watched_s = 0.0;            // the time of which angle and validity are asked: from the fault to here
     double end_s = 0.0;
 };
 
 struct FaultOutcome {
-    bool detected = false;           // a health bit, or a half not valid, that the gyro without fault has not
-    double latency_s = 0.0;          // from the fault to the end of that half
+    bool detected = false;   // a health bit, or a half not valid, that the gyro without fault has not
+    double latency_s = 0.0;  // from the fault to the end of that half
+    std::int64_t ticks = 0;
     std::int64_t ticks_outside = 0;  // before the fault and after what is watched
     std::int64_t valid_outside = 0;
     std::int64_t ticks_after = 0;  // of these, those after
@@ -41,20 +42,27 @@ struct FaultOutcome {
     std::string crash;                // what was thrown
 };
 
-// A gyro, its motion and a fault of this kind, as the seed draws them; from 1 ms to 60 s, evenly in the logarithm. Two
-// at once: another fault of any kind is near it. A laser is one that the processor knows perfectly.
+// What gyros the faults meet. As on a bench: photodiodes that differ and drift, light that decays, both readouts, fast
+// swings and vibration, faults of up to 300 s, one in five of them from power-up on; two to six at once.
+enum class Surroundings : unsigned char { kind, bench };
+
+// A gyro, its motion and a fault of this kind, as the seed draws them; from 1 ms to 60 s, evenly in the logarithm. Many
+// at once: other faults of any kind are near it. A laser is one that the processor knows perfectly.
 [[nodiscard]] FaultTrial random_trial(std::optional<twin::FaultKind> kind, std::uint64_t seed,
-                                      config::Fidelity fidelity = config::Fidelity::averaged, bool two_at_once = false);
+                                      config::Fidelity fidelity = config::Fidelity::averaged, bool many_at_once = false,
+                                      Surroundings surroundings = Surroundings::kind);
 
 [[nodiscard]] FaultOutcome run(const FaultTrial& trial);
 
 // Of all faults of one kind.
 struct FaultFigures {
-    std::string kind;  // "none": gyros without fault; "two at once"; "all": the sum of the others but "none"
+    std::string
+        kind;  // "none": gyros without fault; "two at once" or "two to six"; "all": the sum of the others but "none"
     std::int64_t faults = 0;
     std::int64_t detected = 0;
     double median_latency_s = 0.0;  // of those detected; 0 where none is
     double longest_latency_s = 0.0;
+    std::int64_t ticks = 0;
     double valid_outside_ratio = 0.0;
     double valid_after_ratio = 0.0;
     double mean_sq_ratio = 0.0;         // of error over sigma, of valid ticks outside
@@ -75,6 +83,7 @@ struct FaultCampaign {
     std::uint64_t seed = 1;
     int threads = 1;
     config::Fidelity fidelity = config::Fidelity::averaged;
+    Surroundings surroundings = Surroundings::kind;
     std::vector<twin::FaultKind> kinds;  // none: all
 };
 

@@ -82,7 +82,8 @@ void enter_gap(RelockDriftState& state) noexcept;
 
 // Variance of what no correction subtracts from a tick: before the first gap of a log, and later than `ticks` after
 // one. Where the light shows a false angle beyond its noise, because the loop still settled or the perimeter was
-// pushed, its square and the noise of the light. It is found by a trial step from the state just after a gap.
+// pushed, or swings so that its noise may hide one, its square and the noise of the light, found by a trial step from
+// the state just after a gap. Where there is no mean square, what a detuning of .01 wavelength costs.
 //
 // state             before `step` takes this tick.
 // variance_arcsec2  of the tick.

@@ -8,7 +8,7 @@
 //
 //   (S_1 + S_2)/2 = (a - w (b - o))/(a + w (b - o))                                                (1)
 //
-// and w is led to where this is 0, as a mean over 100 ticks in which the detuning stands.
+// and w is led to where this is 0, as a mean over 100 ticks in which the detuning stands, that drifts with it.
 //
 // An offset is a part of the light that does not fall with it: far from the centre, where the light P = A + w (B - o)
 // is less than its level P_0, it is seen as a jump of the detuning where the bias is reversed. An offset of w P_0/2
@@ -44,6 +44,7 @@ struct SeenJump {
 struct LightBalanceState {
     double weight = 1.0;                // of beam B
     double slow_weight = 1.0;           // its mean
+    double drift = 0.0;                 // of ln w, half of it, from one tick that teaches to the next
     double level = 0.0;                 // P_0
     double offset = 0.0;                // of beam B, in the unit of the samples
     double variance = 1e-7;             // of that, in units of w P_0/2

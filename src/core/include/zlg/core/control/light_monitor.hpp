@@ -47,6 +47,7 @@ struct LightMonitorState {
     bool was_dark = false;            // the half before had no light both ways, in a settled gyro
     std::int32_t n_stuck = 0;         // stuck halves in a row, up to the debounce limit
     std::int32_t n_noisy = 0;         // noisy halves in a row, up to the debounce limit
+    double noise_lambda2 = 0.0;       // of a sample, since it is noisy
     std::int32_t n_contradicted = 0;  // contradicted halves in a row, up to the debounce limit
     std::int8_t side = 0;             // 1: beam A was too bright for B in the last half; -1: B for A
     std::int32_t n_side = 0;          // halves in a row on this side, up to the debounce limit
