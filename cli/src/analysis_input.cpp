@@ -131,8 +131,7 @@ study::TableResult table_test(const config::Analysis& a, const study::AxisRecord
         throw UsageError{"--map holds=angle: a rate-table test takes increments or rates"};
     const double settling =
         std::min(std::ceil(a.table_settling_s * axis.rate_hz), static_cast<double>(table_rates.size()));
-    const calibration::RateTableOptions options{.same_rate_ratio = a.table_same_rate_ratio,
-                                                .settling_samples = static_cast<std::int64_t>(settling),
+    const calibration::RateTableOptions options{.settling_samples = static_cast<std::int64_t>(settling),
                                                 .earth_arcsec_s = a.table_earth_arcsec_s};
     try {
         return {.name = axis.name,

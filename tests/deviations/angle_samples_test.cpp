@@ -57,7 +57,7 @@ TEST_F(AngleSamplesTest, stream_into_the_deviation_of_the_same_numbers_in_memory
 // Through blocks of another length than the reader's.
 TEST_F(AngleSamplesTest, are_those_of_the_rows) {
     for (const char* name : {"rows.csv", "rows.h5"}) {
-        const std::string path = (folder_ / name).string();
+        const std::string path = folder_.file(name);
         logs::AngleWriter writer(path, 0.01, {}, false);
         for (int k = 0; k < 40000; ++k)
             writer.write({.tick = k,
@@ -82,10 +82,10 @@ TEST_F(AngleSamplesTest, are_those_of_the_rows) {
 }
 
 TEST_F(AngleSamplesTest, end_with_a_complaint_where_a_row_is_not_good) {
-    const auto path = folder_ / "bad.csv";
+    const auto path = folder_.file("bad.csv");
     std::ofstream(path) << "# tick_s = 0.01\ntick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags\n"
                            "0,0.01,1,1,0,1,0\n1,0.02,nan,1,0,1,0\n";
-    auto samples = angle_samples(path.string(), AngleColumn::dtheta);
+    auto samples = angle_samples(path, AngleColumn::dtheta);
     std::vector<double> values(1);
     std::vector<std::uint8_t> valid(1);
     EXPECT_EQ(samples.source(values, valid), 1U);

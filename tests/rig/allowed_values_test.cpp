@@ -84,7 +84,6 @@ std::string value_of(const config::KeyInfo& key, int k, std::mt19937_64& random)
         case ValueKind::text:
             return "\"text\"";
         case ValueKind::column:
-        case ValueKind::columns:
         case ValueKind::integer: {
             if (key.allowed == "-1 or 1") return pick({"-1", "1"});
             Allowed a = in_words(key.allowed);

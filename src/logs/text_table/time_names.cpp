@@ -33,7 +33,9 @@ std::string next_word(std::string_view& name) {
             break;
         }
     }
-    return word.starts_with("Ms") ? "M" + text::small_letters(word.substr(1)) : text::small_letters(word);
+    std::string small = text::small_letters(word);
+    if (word.starts_with("Ms")) small.front() = 'M';
+    return small;
 }
 
 // Behind the group or the message that the column is in: `t` of data.t, meas/t and header.stamp.t [s].
