@@ -1,5 +1,7 @@
 #include "mapping_input.hpp"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
 #include <zlg/logs/log_kind.hpp>
@@ -52,7 +54,10 @@ void note_all(const std::string& path, const std::vector<std::string>& notes) {
 }
 
 logs::RawReader open_raw(const Options& options, const std::string& path) {
-    if (!is_mapped(options) && logs::recognise(path) != logs::LogKind::unknown) return logs::RawReader{path};
+    // A pipe can be read once: it is a log of zlg.
+    const bool can_be_looked_at = std::filesystem::is_regular_file(path);
+    if (!is_mapped(options) && (!can_be_looked_at || logs::recognise(path) != logs::LogKind::unknown))
+        return logs::RawReader{path};
     const logs::ForeignLook look = look_at(options, {path});
     if (look.makes != logs::Makes::raw)
         throw UsageError{

@@ -46,8 +46,9 @@ report::Table term_table(const View& v) {
                         v.axis.fit->chi2, v.axis.fit->dof, v.axis.fit->probability, 100.0 * v.axis.fit->model_error),
                     .header = {"term", "value, continuous", "read at tau, s"}};
     if (v.axis.fit->from_tau_s > 1.5 / v.axis.rate_hz)
-        t.caption += fmt::format(" Averaging times below {:.4g} s left free: the sensor's filter or rounding rules them.",
-                                 v.axis.fit->from_tau_s);
+        t.caption +=
+            fmt::format(" Averaging times below {:.4g} s left free: the sensor's filter or rounding rules them.",
+                        v.axis.fit->from_tau_s);
     for (const noise::FittedTerm& term : v.axis.fit->fitted)
         t.rows.push_back({std::string{noise::name_of(term.kind)}, value_text(term),
                           term.found && std::isfinite(term.read_at_s) ? short_number(term.read_at_s) : "-"});

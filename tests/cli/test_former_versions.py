@@ -16,7 +16,9 @@ GONE = ["gyro.coil_current", "switching.after_step", "compensation.prior", "comp
         "perimeter.sample_gain", "perimeter.settled_tau_s", "perimeter.set_points", "piezo.mirror_damping", "piezo.dac_bits",
         "piezo.adc_bits", "piezo.adc_noise_v", "photodiodes.skew_s", "photodiodes.jitter_s", "switching.last_segment",
         "switching.switch_error_arcsec", "switching.magnetic_arcsec_s", "faults.vibration_hz", "analysis.taus_per_decade",
-        "analysis.least_known_ratio", "analysis.total_bias", "analysis.angles", "analysis.table_same_rate_ratio"]
+        "analysis.least_known_ratio", "analysis.total_bias", "analysis.angles", "analysis.table_same_rate_ratio",
+        "analysis.scale_arcsec", "analysis.comment", "analysis.skip_lines", "analysis.separator", "analysis.decimal",
+        "analysis.table_scale_arcsec_s"]
 # Of the logs whose gyro had what is gone: coil_current = "record", after_step = "switch", prior = "lines", and these.
 VALUES = ['switching.schedule = "growing"', 'compensation.bridge = "optimal"']
 

@@ -104,12 +104,9 @@ TEST(Schema, AValueOfAWrongTypeIsShownAsItCouldBeWritten) {
     EXPECT_EQ(shown("\"a\\nb\""), "\"a\\u000Ab\"");
     EXPECT_EQ(shown("[]"), "[]");
     EXPECT_EQ(shown("[1, [2.5, 'x']]"), "[ 1, [ 2.5, 'x' ] ]");
-    EXPECT_EQ(shown("{}"), "{}");
-    EXPECT_EQ(shown("{ \"a b\" = { c = true } }"), "{ 'a b' = { c = true } }");
-    EXPECT_EQ(shown("2024-02-03"), "2024-02-03");
-    EXPECT_EQ(shown("12:00:01.50"), "12:00:01.5");
-    EXPECT_EQ(shown("2024-02-03T04:05:06Z"), "2024-02-03T04:05:06Z");
-    EXPECT_EQ(shown("2024-02-03T04:05:06-01:30"), "2024-02-03T04:05:06-01:30");
+    // What the value is follows: "this is a table".
+    EXPECT_EQ(shown("{ a = 1 }"), "...");
+    EXPECT_EQ(shown("2024-02-03"), "...");
     EXPECT_EQ(shown("'" + std::string(70, 'x') + "'"), "'" + std::string(59, 'x') + "...");
 }
 

@@ -1,29 +1,34 @@
 #include "low_passes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
+#include <span>
 #include <utility>
+
+#include <zlg/core/common/maths.hpp>
 
 namespace zlg::trials {
 namespace {
 
 using std::numbers::pi;
 using Section = std::array<double, 5>;
+namespace maths = core::maths;
 
 Section exponential(double cut_hz) {
-    const double a = std::exp(-2.0 * pi * cut_hz);
+    const double a = maths::exp(-2.0 * pi * cut_hz);
     return {1.0 - a, 0.0, 0.0, -a, 0.0};
 }
 
 // By the bilinear transform, so that the cut stays where it is.
+double warped(double cut_hz) { return maths::sin(pi * cut_hz) / maths::cos(pi * cut_hz); }
 Section butterworth_1(double cut_hz) {
-    const double k = std::tan(pi * cut_hz);
+    const double k = warped(cut_hz);
     return {k / (1.0 + k), k / (1.0 + k), 0.0, (k - 1.0) / (k + 1.0), 0.0};
 }
 Section butterworth_2(double cut_hz, double quality) {
-    const double k = std::tan(pi * cut_hz), norm = 1.0 / (1.0 + k / quality + k * k);
+    const double k = warped(cut_hz), norm = 1.0 / (1.0 + k / quality + k * k);
     return {k * k * norm, 2.0 * k * k * norm, k * k * norm, 2.0 * (k * k - 1.0) * norm,
             (1.0 - k / quality + k * k) * norm};
 }
@@ -43,17 +48,28 @@ std::vector<double> convolved(const std::vector<double>& a, const std::vector<do
 std::vector<double> hann(std::size_t n) {
     std::vector<double> taps;
     for (std::size_t k = 1; k <= n; ++k)
-        taps.push_back((1.0 - std::cos(2.0 * pi * static_cast<double>(k) / static_cast<double>(n + 1))) /
+        taps.push_back((1.0 - maths::cos(2.0 * pi * static_cast<double>(k) / static_cast<double>(n + 1))) /
                        static_cast<double>(n + 1));
     return taps;
 }
 
+// |c_0 + c_1 z + c_2 z^2 + ...|^2 at z = exp(-2 pi i f).
+double square_of(std::span<const double> c, double frequency_hz) {
+    double re = 0.0, im = 0.0;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+        const maths::SinCos turned = maths::sincos_turns(frequency_hz * static_cast<double>(k));
+        re += c[k] * turned.cos;
+        im += c[k] * turned.sin;
+    }
+    return re * re + im * im;
+}
+
 double response(const LowPass& filter, double frequency_hz) {
-    const std::complex<double> z = std::polar(1.0, -2.0 * pi * frequency_hz);
-    std::complex<double> sum = 0.0;
-    for (std::size_t k = filter.taps.size(); k-- > 0;) sum = sum * z + filter.taps[k];
-    for (const Section& s : filter.sections) sum *= (s[0] + z * (s[1] + z * s[2])) / (1.0 + z * (s[3] + z * s[4]));
-    return std::norm(sum);
+    double gain = square_of(filter.taps, frequency_hz);
+    for (const Section& s : filter.sections)
+        gain *= square_of(std::array{s[0], s[1], s[2]}, frequency_hz) /
+                square_of(std::array{1.0, s[3], s[4]}, frequency_hz);
+    return gain;
 }
 
 // The first place of a half.
@@ -84,8 +100,8 @@ LowPass low_pass(LowPassKind kind, double cut_hz) {
             f.sections = {butterworth_2(cut_hz, std::sqrt(0.5))};
             break;
         case LowPassKind::butterworth_4:
-            f.sections = {butterworth_2(cut_hz, 0.5 / std::cos(pi / 8.0)),
-                          butterworth_2(cut_hz, 0.5 / std::cos(3.0 * pi / 8.0))};
+            f.sections = {butterworth_2(cut_hz, 0.5 / maths::cos(pi / 8.0)),
+                          butterworth_2(cut_hz, 0.5 / maths::cos(3.0 * pi / 8.0))};
             break;
         case LowPassKind::two_exponentials:
             f.sections.assign(2, exponential(cut_hz / std::sqrt(std::numbers::sqrt2 - 1.0)));

@@ -213,7 +213,8 @@ noise::NoiseFit fit_in(double unit, double rate_hz, std::vector<double>& rates) 
     // Of a coefficient the power of the rate in its unit, by kind.
     constexpr std::array<double, n_kinds> powers{-1.0, -0.5, 0.0, 0.5, 1.0, 0.0, 0.0};
     for (FittedTerm& t : fit.fitted) {
-        const double scale = unit * std::pow(rate_hz, powers.at(static_cast<std::size_t>(t.kind)));
+        const double scale =
+            unit * core::maths::exp(powers.at(static_cast<std::size_t>(t.kind)) * core::maths::log(rate_hz));
         for (double* value : {&t.value, &t.sigma, &t.limit}) *value /= scale;
         for (double* value : {&t.second, &t.second_sigma}) *value /= rate_hz;
     }

@@ -37,7 +37,8 @@ struct CounterMonitorState {
 // latency  26 accusing readings for bit 1, 12 from bit 8 on: some 90 halves where a half turns by 2^k and more, else
 //          ten times 2^k counts of rotation. A bit that changes again is accepted at once, and so is any after 400
 //          halves without a new accusation.
-// errors   bit 0 is not judged (a count more or less is within every sigma; by phase the reading is in half counts), nor
+// errors   bit 0 is not judged (a count more or less is within every sigma; by phase the reading is in half counts),
+// nor
 //          are those from 13 on, whose errors are out of the bias's band.
 [[nodiscard]] bool step(CounterMonitorState& state, bool counted, std::uint64_t reading) noexcept;
 

@@ -26,8 +26,8 @@ struct FrameOrderOutput {
 // A frame that is behind was repeated or is late: all that it holds is of another half. The same holds for one that is
 // ahead, until a second one follows it: frames were lost while no half was counted. Frames that stay behind for half a
 // second, each following the one before, are accepted: their numbers were begun anew. Those that are behind by no more
-// than eight are late, for as long as what delays them lasts: the counts of the half before, in place of this one's. But
-// where all of them were latched on time, the numbers were begun anew here, too.
+// than eight are late, for as long as what delays them lasts: the counts of the half before, in place of this one's.
+// But where all of them were latched on time, the numbers were begun anew here, too.
 //
 // The first frame of all may have any number. But where halves were missed before it, it follows only with the number
 // of its half: another one does not say which half it ended.
