@@ -4,12 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <string_view>
 #include <zlg/logs/error.hpp>
 #include <zlg/text/spelling.hpp>
@@ -155,7 +155,8 @@ std::string foreign_nature(const std::string& path) {
         return fmt::format("HDF5 with a user block of {} bytes{}", offset,
                            head.text().starts_with("MATLAB 7.3") ? ", a MATLAB 7.3 file (.mat)" : "");
     if (offset == 0) return "HDF5";
-    const std::string suffix = zlg::text::lower_case(std::filesystem::path{path}.extension().string());
+    // Without the library of files, which the page's module does not have.
+    const std::string suffix = zlg::text::lower_case(path.substr(std::min(path.rfind('.'), path.size())));
     for (const Signature& signature : signatures) {
         if (!head.text().starts_with(signature.bytes)) continue;
         if (suffix == ".xlsx" || suffix == ".ods") return "a table of a spreadsheet (" + suffix + "); save it as CSV";

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <vector>
 #include <zlg/logs/imported.hpp>
 #include <zlg/text/escape.hpp>
@@ -66,7 +65,11 @@ bool take_turns(const std::vector<Run>& runs) {
         ++next[runs[k - 1].kind][runs[k].kind];
         ++lengths[runs[k - 1].n];
     }
-    const auto most = [](const auto& counts) { return std::ranges::max(counts | std::views::values); };
+    const auto most = [](const auto& counts) {
+        std::size_t n = 0;
+        for (const auto& [what, count] : counts) n = std::max(n, count);
+        return n;
+    };
     std::size_t n_usual = 0;
     for (const auto& [kind, counts] : next) n_usual += most(counts);
     return 20 * n_usual >= 19 * (runs.size() - 1) && 10 * most(lengths) >= 9 * (runs.size() - 1);
