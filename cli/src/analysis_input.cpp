@@ -159,8 +159,8 @@ config::Config read_mapped(const Options& options, const std::string& path, cons
         axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
         axis.phase_arcsec = std::move(from.phase_arcsec);
         axis.mode = std::move(from.mode);
-        axis.doubts = std::move(from.doubts);
-        note_all(path, axis.doubts);
+        axis.warnings = std::move(from.warnings);
+        note_all(path, axis.warnings);
         if (imported.table_rates_arcsec_s.empty())
             input.axes.push_back(std::move(axis));
         else

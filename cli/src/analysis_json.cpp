@@ -80,7 +80,7 @@ json axis_json(const AxisResult& axis) {
                                 {"n_gaps", "gaps"},
                                 {"mean_arcsec_s", "mean_rate_arcsec_s"},
                                 {"mean_sigma_arcsec_s", "mean_rate_sigma_arcsec_s"}});
-    j["doubts"] = axis.doubts;
+    j["warnings"] = axis.warnings;
     j["deviations"] = curves_json(axis.curves);
     j["fit"] = fit_json(axis);
     j["readouts"] = fields_json(axis.readouts, {{"deviation_arcsec_s", "deviation"}});

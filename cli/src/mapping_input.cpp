@@ -21,10 +21,10 @@ void add_strict_option(CLI::App& verb, Options& options) {
     verb.add_flag("--strict", options.strict, "exit status 1 where values may be no measurements");
 }
 
-void refuse_doubts(const Options& options, std::size_t n_doubts) {
-    if (!options.strict || n_doubts == 0) return;
-    explain_exit(fmt::format("--strict: {} line{} above say{} what may be no measurement", n_doubts,
-                             n_doubts == 1 ? "" : "s", n_doubts == 1 ? "s" : ""));
+void refuse_warnings(const Options& options, std::size_t n_warnings) {
+    if (!options.strict || n_warnings == 0) return;
+    explain_exit(fmt::format("--strict: {} line{} above say{} what may be no measurement", n_warnings,
+                             n_warnings == 1 ? "" : "s", n_warnings == 1 ? "s" : ""));
     throw CLI::RuntimeError{result_says_no};
 }
 

@@ -18,7 +18,7 @@ void add_mapping_options(CLI::App& verb, Options& options);
 void add_strict_option(CLI::App& verb, Options& options);
 
 // errors  CLI::RuntimeError, exit status 1: --strict is given, and there are any.
-void refuse_doubts(const Options& options, std::size_t n_doubts);
+void refuse_warnings(const Options& options, std::size_t n_warnings);
 
 // One of both options is given.
 [[nodiscard]] bool is_mapped(const Options& options);

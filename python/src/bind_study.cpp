@@ -89,7 +89,7 @@ struct Axes {
 
     void add(const std::string& name, const std::string& group, double rate_hz, const In<double>& rates,
              const std::optional<In<std::int8_t>>& mode, const std::optional<In<double>>& bridged,
-             const std::optional<In<double>>& phase, const std::vector<std::string>& doubts) {
+             const std::optional<In<double>>& phase, const std::vector<std::string>& warnings) {
         const auto copied = [](const auto& span) { return std::vector(span.begin(), span.end()); };
         records.push_back({.name = name,
                            .group = group,
@@ -99,7 +99,7 @@ struct Axes {
                            .mode = copied(span_of(mode, "mode")),
                            .bridged_arcsec_s = copied(span_of(bridged, "bridged_arcsec_s")),
                            .phase_arcsec = copied(span_of(phase, "phase_arcsec")),
-                           .doubts = doubts});
+                           .warnings = warnings});
     }
 };
 
@@ -117,7 +117,7 @@ py::dict of(const study::AxisResult& axis) {
     d["mode_curves"] = list_of(axis.mode_curves);
     d["fit"] = axis.fit ? py::object{dict_of(*axis.fit)} : py::none();
     d["no_fit"] = axis.no_fit;
-    d["doubts"] = axis.doubts;
+    d["warnings"] = axis.warnings;
     return d;
 }
 
@@ -150,7 +150,7 @@ void bind_study(py::module_& m) {
     py::class_<Axes>(m, "Axes")
         .def(py::init<>())
         .def("add", &Axes::add, "name"_a, "group"_a, "rate_hz"_a, "rates_arcsec_s"_a, "mode"_a, "bridged_arcsec_s"_a,
-             "phase_arcsec"_a, "doubts"_a);
+             "phase_arcsec"_a, "warnings"_a);
     m.def("analyze", &analyze, "config"_a, "axes"_a, "settling_samples"_a, "threads"_a, "progress"_a);
     m.def("paper", &paper, "config"_a, "threads"_a, "switches_per_point"_a, "progress"_a);
 }

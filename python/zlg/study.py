@@ -198,7 +198,7 @@ class Axis(Shown):
     #: where angles were recorded: those, one more
     phase_arcsec: Optional[NDArray[np.float64]] = None
     #: values that may be no measurements, a line each
-    doubts: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
     #: what `zlg.read` understood of the file
     notes: list[str] = field(default_factory=list)
 
@@ -233,7 +233,7 @@ class AxisResult(Shown):
     #: of a switched gyro: mode +1, mode -1, and both with the magnetic part taken out
     mode_curves: list[Deviations]
     #: as of the axis
-    doubts: list[str]
+    warnings: list[str]
 
 
 @dataclass(repr=False)
@@ -280,7 +280,7 @@ def read(path: Path, progress: Progress = None, **said: Union[str, float, Sequen
     if columns["raw"] is not None:
         return made_of(RawLog, columns["raw"])
     read_axes = [made_of(Axis, dict(each, group=os.fspath(path), notes=columns["notes"])) for each in columns["axes"]]
-    warn_each(f"{os.fspath(path)}: {doubt}" for each in read_axes for doubt in each.doubts)
+    warn_each(f"{os.fspath(path)}: {warning}" for each in read_axes for warning in each.warnings)
     return read_axes
 
 
@@ -302,5 +302,5 @@ def analyze(
         mode = None if axis.mode is None else signs(axis.mode)
         bridged = None if axis.bridged_arcsec_s is None else floats(axis.bridged_arcsec_s)
         phase = None if axis.phase_arcsec is None else floats(axis.phase_arcsec)
-        records.add(axis.name, axis.group, axis.rate_hz, floats(axis.rates_arcsec_s), mode, bridged, phase, axis.doubts)
+        records.add(axis.name, axis.group, axis.rate_hz, floats(axis.rates_arcsec_s), mode, bridged, phase, axis.warnings)
     return made_of(Analysis, _zlg.analyze(checked(config), records, settling_samples, threads, progress))

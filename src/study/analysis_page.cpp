@@ -123,7 +123,7 @@ bool was_moved(const AxisResult& axis) { return axis.fit && (!axis.fit->describe
 // The terms, and the curves from which they come.
 report::Section section_of(const View& v) {
     report::Section s{.heading = v.axis.name, .paragraphs = {summary(v)}};
-    for (const std::string& doubt : v.axis.doubts) s.paragraphs.push_back(doubt + ".");
+    for (const std::string& warning : v.axis.warnings) s.paragraphs.push_back(warning + ".");
     if (v.axis.fit && !v.axis.fit->describes)
         s.paragraphs.push_back(
             "The fitted terms do not describe the record: it was moved, or has noise of another kind. Their errors are "

@@ -183,7 +183,7 @@ double sigma_of_mean(const AxisResult& axis) {
 AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
     AxisResult axis{.name = record.name, .group = record.group, .holds = record.holds, .rate_hz = record.rate_hz};
     axis.is_error = record.is_error;
-    axis.doubts = record.doubts;
+    axis.warnings = record.warnings;
     axis.n_samples = std::ssize(record.rates_arcsec_s);
     count_known(record, axis);
     if (task.with_page) axis.time_bins = time_bins_of(record);

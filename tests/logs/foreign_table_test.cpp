@@ -55,7 +55,7 @@ TEST(Dates, count_seconds_since_1970) {
 }
 
 // 1 March to 2 March in either order, and a month's first day in neither.
-TEST(Dates, day_and_month_are_told_by_the_rows_that_follow) {
+TEST(Dates, day_and_month_follow_from_the_rows_that_follow) {
     for (const bool month_first : {false, true}) {
         Dates dates;
         std::vector<double> seconds;

@@ -26,7 +26,7 @@ def test_a_text_says_all_by_its_names_and_analyze_takes_it(tmp_path):
     path = tmp_path / "lab.csv"
     path.write_text("t_s;w [°/h]\n" + "".join(f"{k / 100:.2f};{w:.6f}\n".replace(".", ",") for k, w in enumerate(rates())))
     (axis,) = zlg.read(path)
-    assert axis.rate_hz == 100 and axis.rates_arcsec_s.shape == (6000,) and not axis.doubts
+    assert axis.rate_hz == 100 and axis.rates_arcsec_s.shape == (6000,) and not axis.warnings
     found = zlg.analyze([axis]).axes[0]
     same = by_program(path)
     assert (found.n_samples, found.n_known) == (same["samples"], same["known"])
@@ -48,7 +48,7 @@ def test_what_is_open_is_asked_for_with_its_keys(tmp_path):
         zlg.read(path, units="deg/h")
 
 
-def test_holes_modes_and_doubts_come_along(tmp_path):
+def test_holes_modes_and_warnings_come_along(tmp_path):
     path = tmp_path / "m.csv"
     n = np.delete(np.arange(6000), slice(1000, 1020))
     mode = np.where(n // 600 % 2 == 0, 1, -1)
@@ -58,7 +58,7 @@ def test_holes_modes_and_doubts_come_along(tmp_path):
         (axis,) = zlg.read(path, rate_hz=100, axis="w_dph", mode="state")
     assert np.flatnonzero(np.isnan(axis.rates_arcsec_s)).tolist() == list(range(1000, 1020))
     result = zlg.analyze([axis]).axes[0]
-    assert result.doubts == axis.doubts and result.modes is not None
+    assert result.warnings == axis.warnings and result.modes is not None
 
 
 def test_logs_of_our_own_and_raw_files(tmp_path):

@@ -66,7 +66,7 @@ TEST(Wiring, the_interval_is_counted_in_whole_ticks) {
     EXPECT_EQ(first_tick(schedule), 700);
 }
 
-TEST(Wiring, a_schedule_is_told_its_limits) {
+TEST(Wiring, a_schedule_is_given_its_limits) {
     config::Config c;
     c.switching.schedule = config::Schedule::measured;
     c.switching.interval_min_s = 12.0;

@@ -91,9 +91,9 @@ void analyze(const AnalyzeOptions& options) {
         outputs.push_back({options.imu_yaml, noise::imu_yaml(study::kalibr_gyro(result.axes))});
     write_all(outputs, options.force);
     print(options.json ? pretty(analysis_json(result)) : report::text(page));
-    std::size_t n_doubts = 0;
-    for (const study::AxisResult& axis : result.axes) n_doubts += axis.doubts.size();
-    refuse_doubts(options, n_doubts);
+    std::size_t n_warnings = 0;
+    for (const study::AxisResult& axis : result.axes) n_warnings += axis.warnings.size();
+    refuse_warnings(options, n_warnings);
 }
 
 }  // namespace

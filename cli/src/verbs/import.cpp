@@ -90,7 +90,7 @@ std::size_t write_raw(const ImportOptions& options, const logs::ForeignLook& loo
 }
 
 std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& look,
-                         std::vector<std::string>& doubts) {
+                         std::vector<std::string>& warnings) {
     const logs::ImportedAxes made = logs::imported_axes(look);
     if (made.axes.size() != 1)
         throw UsageError{
@@ -98,8 +98,8 @@ std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& 
                         options.file(), made.axes.size())};
     note_all(options.file(), made.notes);
     const logs::ImportedAxis& axis = made.axes.front();
-    doubts = axis.doubts;
-    note_all(options.file(), doubts);
+    warnings = axis.warnings;
+    note_all(options.file(), warnings);
     complain(fmt::format("note: {}: {}, {}", name_of_file(options.file()), axis.name, axis.holds));
     const double tick_s = 1.0 / axis.rate_hz;
     const config::Settings settings{{"gyro.tick_s", fmt::format("{}", tick_s)}};
@@ -126,12 +126,12 @@ void import(const ImportOptions& options) {
     }
     const logs::ForeignLook look = look_at(options, options.files);
     std::size_t rows = 0;
-    std::vector<std::string> doubts;
+    std::vector<std::string> warnings;
     if (!options.out.empty()) {
         logs::require_whole(look);
         note_all(options.file(), look.table.notes);
         note_all(options.file(), look.said);
-        rows = look.makes == logs::Makes::raw ? write_raw(options, look) : write_angles(options, look, doubts);
+        rows = look.makes == logs::Makes::raw ? write_raw(options, look) : write_angles(options, look, warnings);
     }
     if (!options.write_mapping.empty()) {
         std::string toml = look.mapping.toml();
@@ -142,12 +142,12 @@ void import(const ImportOptions& options) {
         nlohmann::json json = json_of(look);
         json["out"] = options.out.empty() ? nlohmann::json(nullptr) : nlohmann::json(options.out);
         json["rows"] = rows;
-        json["doubts"] = doubts;
+        json["warnings"] = warnings;
         print(pretty(json));
     } else {
         print(options.out.empty() ? text_of(look) : fmt::format("{}: {} rows\n", printable(options.out), rows));
     }
-    refuse_doubts(options, doubts.size());
+    refuse_warnings(options, warnings.size());
 }
 
 void print_mapping_keys() {

@@ -1,5 +1,5 @@
 #pragma once
-// The messages of a bag in the order of the file. Indexes are not needed, and not believed.
+// The messages of a bag in the order of the file. Indexes are neither needed nor used.
 
 #include <cstdint>
 #include <functional>

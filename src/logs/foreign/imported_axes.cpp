@@ -47,7 +47,7 @@ ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock
                                        look.table.path, described(column), holds));
     refuse_wraps(look, column, unit_named(look.mapping.text("unit")).value());
     refuse_missing_marks(look.table.path, column);
-    std::vector<std::string> doubts = no_measurements(column, holds);
+    std::vector<std::string> warnings = no_measurements(column, holds);
     for (std::size_t k = 0; k < column.values.size(); ++k) {
         column.values[k] *= arcsec;
         if (!std::isnan(column.values[k]) && !(std::fabs(column.values[k]) <= largest))
@@ -61,7 +61,7 @@ ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock
                       .rates_arcsec_s = {},
                       .phase_arcsec = {},
                       .mode = {},
-                      .doubts = std::move(doubts)};
+                      .warnings = std::move(warnings)};
     if (holds == "angle") {
         axis.phase_arcsec = std::move(column.values);
         const std::vector<double>& angle = axis.phase_arcsec;
@@ -118,18 +118,18 @@ ImportedAxes imported_axes(const ForeignLook& look) {
     TextTable read = look.table.read(wanted, times);
     take_out_missing(look.mapping, read);
     ImportedAxes imported{.axes = {}, .table_rates_arcsec_s = {}, .notes = settle_times(read)};
-    std::vector<std::string> doubts = take_once(read, look.table.path);
+    std::vector<std::string> warnings = take_once(read, look.table.path);
     RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
     std::ranges::copy(clock.notes, std::back_inserter(imported.notes));
-    std::ranges::copy(clock.doubts, std::back_inserter(doubts));
+    std::ranges::copy(clock.warnings, std::back_inserter(warnings));
     if (look.mapping.has("table_rate")) imported.table_rates_arcsec_s = table_rates(look, read.columns.back(), clock);
     const auto mode =
         look.mapping.has("mode") ? modes_of(look, read.columns[n_axes], clock) : std::vector<std::int8_t>{};
     for (std::size_t k = 0; k < n_axes; ++k) {
         imported.axes.push_back(axis_of(look, read.columns[k], clock));
         imported.axes.back().mode = mode;
-        std::vector<std::string>& own = imported.axes.back().doubts;
-        own.insert(own.begin(), doubts.begin(), doubts.end());
+        std::vector<std::string>& own = imported.axes.back().warnings;
+        own.insert(own.begin(), warnings.begin(), warnings.end());
     }
     return imported;
 }

@@ -126,7 +126,7 @@ private:
         clock_ = row_clock(from_.read(), path_, mapping, step);
         // Numbers of rows show which are missing, and not how long one is.
         knows_step_ = !step || !clock_.times || !numbers_rows(*from_.read().times, *clock_.times);
-        for (const auto* notes : {&clock_.notes, &clock_.doubts})
+        for (const auto* notes : {&clock_.notes, &clock_.warnings})
             made_.notes.insert(made_.notes.end(), notes->begin(), notes->end());
         if (!holes_count) clock_.times.reset();
     }

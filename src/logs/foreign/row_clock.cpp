@@ -224,7 +224,7 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
         throw MappingError(
             fmt::format("{}: --map time_unit=s, ms, us or ns is missing, of {}", path, described(times)));
     }
-    if (const std::string odd = odd_steps(times, *clock.times); !odd.empty()) clock.doubts.push_back(odd);
+    if (const std::string odd = odd_steps(times, *clock.times); !odd.empty()) clock.warnings.push_back(odd);
     if (std::ranges::adjacent_find(times.values) != times.values.end())
         clock.notes.push_back(
             fmt::format("{}: its times repeat, so that a single row that is missing is not seen", described(times)));

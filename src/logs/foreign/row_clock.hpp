@@ -15,7 +15,7 @@ struct RowClock {
     double step_s = 0.0;            // of a row
     std::optional<RowTimes> times;  // with the holes, where a column says where they are
     std::vector<std::string> notes;
-    std::vector<std::string> doubts;  // of the times, a line each
+    std::vector<std::string> warnings;  // of the times, a line each
 };
 
 // The range after which whole numbers or times begin anew, and else rise; 0: they do not.

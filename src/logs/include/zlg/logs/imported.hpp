@@ -59,7 +59,7 @@ struct ImportedAxis {
     std::vector<double> rates_arcsec_s;  // NaN where nothing was measured
     std::vector<double> phase_arcsec;    // where angles are recorded: those, one more
     std::vector<std::int8_t> mode;       // of a switched gyro, as many as rates; else empty
-    std::vector<std::string> doubts;     // values that may be no measurements, a line each
+    std::vector<std::string> warnings;   // values that may be no measurements, a line each
 };
 
 struct ImportedAxes {

@@ -26,8 +26,8 @@ struct AxisRecord {
     // Where angles were recorded, not what was turned between them: those, one more than rates. The deviations are
     // taken of them, so that one that is missing harms no longer averaging time.
     std::vector<double> phase_arcsec{};
-    bool is_error = false;              // of the axis before it, whose truth is known: no rotation of its own
-    std::vector<std::string> doubts{};  // values that may be no measurements, a line each
+    bool is_error = false;                // of the axis before it, whose truth is known: no rotation of its own
+    std::vector<std::string> warnings{};  // values that may be no measurements, a line each
 };
 
 // A stretch of time over which the record's mean is drawn.
@@ -72,8 +72,8 @@ struct AxisResult {
     noise::Spectrum spectrum;
     noise::Spectrum spectrum_left;  // without sinusoids, and the magnetic part, where there are any
     noise::Spectrogram spectrogram;
-    bool is_error = false;            // as of its record
-    std::vector<std::string> doubts;  // as of its record
+    bool is_error = false;              // as of its record
+    std::vector<std::string> warnings;  // as of its record
 };
 
 struct AnalysisTask {

@@ -9,7 +9,7 @@ from foreign import Foreign
 from support import run
 
 
-class Doubts(Foreign):
+class ForeignCase(Foreign):
     N = 6000
     LOST = ((700, 5), (2000, 17), (4000, 3))
 
@@ -34,7 +34,7 @@ class Doubts(Foreign):
         return [f"{x:.6f}" for x in self.rates(n or self.N)]
 
 
-class Holes(Doubts):
+class Holes(ForeignCase):
     def test_counters_of_any_width_and_name(self):
         keep = self.keep()
         for bits in (7, 8, 10, 16, 24, 32):
@@ -112,7 +112,7 @@ class Holes(Doubts):
         self.refuse(2, "analyze", both, "--map", "time=1", "--map", "rate_hz=50", says=("'time_s'", "0.01"))
 
 
-class Sensors(Doubts):
+class Sensors(ForeignCase):
     def by_turns(self, names):
         n, k = 2000, numpy.arange(2000)
         kinds = [names[i] for i in k % len(names)]
@@ -148,16 +148,16 @@ class Sensors(Doubts):
             self.mean(self.table("w.csv", "t_s,state,w_dph", numpy.arange(n) / 100, words, self.w(n)), "--map", "axis=w_dph")
 
 
-class NoMeasurements(Doubts):
-    def doubts(self, w, *said, name="w_dps"):
+class NoMeasurements(ForeignCase):
+    def warnings(self, w, *said, name="w_dps"):
         path = self.table("w.csv", f"t_s,{name}", [f"{k / 100:.2f}" for k in range(len(w))], w)
         result = run("analyze", path, "--map", "axis=2", "--map", "holds=rate", *said, "--json")
         self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads(result.stdout)["axes"][0]["doubts"], path
+        return json.loads(result.stdout)["axes"][0]["warnings"], path
 
     def test_rows_that_repeat(self):
         for times in (2, 3, 5, 10):
-            (line,), path = self.doubts(numpy.round(numpy.repeat(self.rng.normal(0, 1, 6000 // times), times), 4))
+            (line,), path = self.warnings(numpy.round(numpy.repeat(self.rng.normal(0, 1, 6000 // times), times), 4))
             self.assertIn(f"each value stands {times} times", line)
         page = self.folder / "p.html"
         text = run("analyze", path, "--map", "holds=rate", "--strict", "--out", page)
@@ -170,23 +170,23 @@ class NoMeasurements(Doubts):
     def test_a_value_that_stands(self):
         w = numpy.round(self.rng.normal(0, 1, 6000), 4)
         w[2000:3000] = w[2000]
-        (line,), _ = self.doubts(w)
+        (line,), _ = self.warnings(w)
         self.assertIn("rows 2001 to 3000", line)
 
     def test_rails(self):
         t = numpy.arange(6000) / 100
         for low, high in ((-250, 250), (-1e9, 250), (-250, 1e9)):
-            (line,), _ = self.doubts(numpy.round(numpy.clip(100 + 400 * numpy.sin(t) + self.rng.normal(0, 1, 6000), low, high), 4))
+            (line,), _ = self.warnings(numpy.round(numpy.clip(100 + 400 * numpy.sin(t) + self.rng.normal(0, 1, 6000), low, high), 4))
             self.assertEqual(("at 250" in line, "at -250" in line), (high == 250, low == -250))
 
-    def test_what_measures_has_no_doubts(self):
+    def test_what_measures_has_no_warnings(self):
         t = numpy.arange(6000) / 100
         noise = self.rng.normal(0, 1, 6000)
         for w in (noise, numpy.round(noise), numpy.round(3 * noise), numpy.round(0.5 * noise), numpy.round(100 * numpy.sin(t)),
                   numpy.round(noise * 30, 2), numpy.round(100 * numpy.sin(t) + 0.3 * noise), numpy.round(noise, 1),
                   numpy.where(t < 30, 0, numpy.round(50 * noise))):
-            doubts, path = self.doubts(numpy.round(w, 6))
-            self.assertEqual(doubts, [])
+            warnings, path = self.warnings(numpy.round(w, 6))
+            self.assertEqual(warnings, [])
             self.succeed("analyze", path, "--map", "axis=2", "--map", "holds=rate", "--strict")
 
     def test_messages_that_stand_twice(self):
@@ -197,12 +197,12 @@ class NoMeasurements(Doubts):
         path = self.table("t.csv", "t_s,w_dps", t, [f"{row[1]:.6f}" for row in rows])
         _, axis = self.mean(path)
         self.assertEqual((axis["samples"], axis["rate_hz"]), (3000, 100))
-        self.assertIn("1000 rows come 2e-05 behind", axis["doubts"][0])
+        self.assertIn("1000 rows come 2e-05 behind", axis["warnings"][0])
         other = self.table("t.csv", "t_s,w_dps", t, self.w(len(t)))
         self.refuse(3, "analyze", other, says=("row 3", "other values", "time=none"))
 
 
-class Heads(Doubts):
+class Heads(ForeignCase):
     def test_a_scale_is_asked_for(self):
         counts = self.rng.integers(-300, 300, 400)
         for head in ("gscale,0.00122", "# sensitivity 131 LSB/dps", "# Scale factor: 0.01", "# Skalierung = 0,5"):
