@@ -68,6 +68,7 @@ logs::RawReader open_raw(const Options& options, const std::string& path) {
     note_all(path, look.table.notes);
     note_all(path, look.said);
     note_all(path, made.notes);
+    note_all(path, made.warnings);
     return {path, std::move(made.header), std::move(made.rows)};
 }
 

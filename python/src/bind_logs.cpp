@@ -94,7 +94,7 @@ py::dict read_foreign(const std::string& path, const std::vector<std::pair<std::
             imported = logs::imported_axes(look);
     }
     std::vector<std::string> notes = look.table.notes;
-    for (const auto* some : {&look.said, &raw.notes, &imported.notes})
+    for (const auto* some : {&look.said, &raw.notes, &raw.warnings, &imported.notes})
         notes.insert(notes.end(), some->begin(), some->end());
     py::dict d("notes"_a = notes, "raw"_a = py::none());
     if (look.makes == logs::Makes::raw) {

@@ -101,7 +101,10 @@ SmoothFit select_terms(const HadamardPoints& points, bool with_markov, double mo
     const TermSet& best = sets.front();
     SmoothFit result;
     result.square = best.square;
-    for (std::size_t kind = 0; kind < n_smooth; ++kind) result.found[kind] = best.shows(kind);
+    for (std::size_t kind = 0; kind < n_smooth; ++kind) {
+        result.found[kind] = best.shows(kind);
+        if (!result.found[kind]) result.square[kind] = 0.0;
+    }
     (best.filtered ? result.filter_time_s : result.markov_time_s) = best.has(markov_index) ? best.time_s : 0.0;
     result.skipped = best.skipped;
     take_uncertainty(sets, std::log(static_cast<double>(points.value.size())), result);

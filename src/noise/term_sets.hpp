@@ -2,6 +2,7 @@
 // Sets of terms, fitted to the variances of a record.
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -28,7 +29,10 @@ struct TermSet {
     std::array<double, n_smooth> square{}, variance{};
 
     [[nodiscard]] bool has(std::size_t kind) const { return (mask >> kind & 1u) != 0; }
-    [[nodiscard]] bool shows(std::size_t kind) const { return square[kind] > 0.0; }
+    // A coefficient that sets without the shortest times cannot leave out shows where it is more than its error.
+    [[nodiscard]] bool shows(std::size_t kind) const {
+        return square[kind] > (skipped == 0 ? 0.0 : std::sqrt(variance[kind]));
+    }
     [[nodiscard]] Eigen::Index place_of(std::size_t kind) const;  // among the coefficients; of n_smooth the time
     [[nodiscard]] std::size_t n_free() const { return static_cast<std::size_t>(fit.covariance.rows()) + skipped; }
     [[nodiscard]] double log_time_variance() const;

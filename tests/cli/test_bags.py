@@ -53,6 +53,18 @@ class Bags(Hostile):
 
 
 class Read(Bags):
+    def test_bags_of_one_record_keep_the_time_between_them(self):
+        def part(name, from_s):
+            at = [START + from_s * 10**9 + k * STEP for k in range(60)]
+            return self.bag(mcap(mcap_channel(1, "/imu") + b"".join(mcap_message(1, ns, imu_cdr(ns, "imu", rates(k))) for k, ns in enumerate(at))), name)
+
+        out = self.folder / "angles.csv"
+        said = ("--map", "axis=angular_velocity.z", "--out", out, "--force")
+        self.succeed("import", part("a.mcap", 0), part("b.mcap", 100), *said)
+        log = AngleLog(out)
+        self.assertEqual(len(log.dtheta), 100 * 200 + 60)
+        self.assertEqual(self.cheap("import", self.folder / "b.mcap", self.folder / "a.mcap", *said, code=2).stderr.count("begins before"), 1)
+
     def test_writers_that_are_not_ours(self):
         for path in FOREIGN:
             for axis, name in enumerate("xyz"):

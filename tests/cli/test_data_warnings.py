@@ -97,6 +97,13 @@ class Holes(ForeignCase):
             self.assertEqual((axis["samples"], axis["known"], axis["gaps"]), (n, n - 50, 1))
             if head != "seq,w_dph":
                 self.refuse((2, 3), "import", paths[1], paths[0], "--out", out, "--force", *said)
+        # Seconds and nanoseconds apart, from whose first second on times count: of files that begin an hour apart.
+        paths = [self.table(f"ros{i}.csv", "stamp.sec,stamp.nanosec,w_dph", [at + k // 100 for k in range(1000)],
+                            [k % 100 * 10_000_000 for k in range(1000)], self.w(1000)) for i, at in enumerate((1000, 4600))]
+        self.succeed("import", *paths, "--out", out, "--force")
+        _, axis = self.mean(out)
+        self.assertEqual((axis["samples"], axis["known"], axis["gaps"]), (361_000, 2000, 1))
+        self.refuse((2, 3), "import", *reversed(paths), "--out", out, "--force", says=("ros0.csv", "order of their times"))
         other = self.table("other.csv", "t_s,v_dph", [1, 2, 3], [1, 2, 4])
         self.refuse(2, "import", paths[0], other, says=("other.csv", "columns"))
 
@@ -148,6 +155,20 @@ class Sensors(ForeignCase):
             self.mean(self.table("w.csv", "t_s,state,w_dph", numpy.arange(n) / 100, words, self.w(n)), "--map", "axis=w_dph")
 
 
+    def test_a_key_that_the_file_cannot_use_is_refused(self):
+        both = numpy.zeros((4000, 2))
+        both[1::2] = (1, 9.81)
+        numpy.save(self.folder / "both.npy", both)
+        said = ["--map", "axis=2", "--map", "holds=rate", "--map", "unit=deg/s", "--map", "rate_hz=200"]
+        self.refuse(2, "analyze", self.folder / "both.npy", *said, says=("column 1",))
+        self.refuse(2, "analyze", self.folder / "both.npy", *said, "--map", "sensor=0", says=("sensor = 0", "text"))
+        for key in ("skip_lines=500", "topic=/imu", "encoding=utf-8", "decimal=comma", "separator=tab", "comment=%", "table=x"):
+            self.refuse(2, "analyze", self.folder / "both.npy", *said, "--map", "sensor=none", "--map", key, says=(key.split("=")[0],))
+        path = self.table("w.csv", "t_s,w_dps", numpy.arange(400) / 100, self.w(400))
+        for key in ("topic=/imu", "table=x", "table_unit=deg/s", "mode_plus=1"):
+            self.refuse(2, "analyze", path, "--map", key, says=(key.split("=")[0],))
+
+
 class NoMeasurements(ForeignCase):
     def warnings(self, w, *said, name="w_dps"):
         path = self.table("w.csv", f"t_s,{name}", [f"{k / 100:.2f}" for k in range(len(w))], w)
@@ -166,6 +187,8 @@ class NoMeasurements(ForeignCase):
             self.assertIn("each value stands 10 times", shown)
         out = self.folder / "a.csv"
         self.assertEqual(run("import", path, "--map", "holds=rate", "--strict", "--out", out).returncode, 1)
+        self.assertEqual(run("import", path, "--map", "holds=rate", "--strict").returncode, 1)
+        self.refuse(2, "import", self.table("open.csv", "t_s,w", [0, 1, 2, 3], [1, 2, 4, 5]), "--strict", says=("--map unit=", "holds="))
 
     def test_a_value_that_stands(self):
         w = numpy.round(self.rng.normal(0, 1, 6000), 4)
@@ -203,6 +226,11 @@ class NoMeasurements(ForeignCase):
 
 
 class Heads(ForeignCase):
+    def test_units_behind_a_stroke_or_a_point(self):
+        for name, times in (("Time/s", 1), ("t/s", 1), ("time.s", 1), ("Zeit / ms", 1000), ("data.t [s]", 1), ("meas.t/ms", 1000)):
+            _, axis = self.mean(self.table("n.csv", f"{name},w_dph", numpy.arange(400) / 100 * times, self.w(400)))
+            self.assertEqual((axis["rate_hz"], axis["samples"]), (100, 400), name)
+
     def test_a_scale_is_asked_for(self):
         counts = self.rng.integers(-300, 300, 400)
         for head in ("gscale,0.00122", "# sensitivity 131 LSB/dps", "# Scale factor: 0.01", "# Skalierung = 0,5"):

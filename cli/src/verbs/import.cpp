@@ -72,9 +72,11 @@ void require_readable(const ImportOptions& options, const config::Settings& sett
     }
 }
 
-std::size_t write_raw(const ImportOptions& options, const logs::ForeignLook& look) {
+std::size_t write_raw(const ImportOptions& options, const logs::ForeignLook& look, std::vector<std::string>& warnings) {
     const logs::ImportedRaw made = logs::imported_raw(look);
     note_all(options.file(), made.notes);
+    warnings = made.warnings;
+    note_all(options.file(), warnings);
     require_readable(options, made.header.settings);
     const Interruptible interruptible;
     // Read once through the rules of a raw log, which name what is wrong.
@@ -115,6 +117,18 @@ std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& 
     return rows.size();
 }
 
+// Without a log that is written.
+std::vector<std::string> warnings_of(const ImportOptions& options, const logs::ForeignLook& look) {
+    std::vector<std::string> warnings;
+    if (look.makes == logs::Makes::raw)
+        warnings = logs::imported_raw(look).warnings;
+    else
+        for (const logs::ImportedAxis& axis : logs::imported_axes(look).axes)
+            warnings.insert(warnings.end(), axis.warnings.begin(), axis.warnings.end());
+    note_all(options.file(), warnings);
+    return warnings;
+}
+
 void import(const ImportOptions& options) {
     if (!options.out.empty()) {
         (void)log_format(options.out);
@@ -127,11 +141,14 @@ void import(const ImportOptions& options) {
     const logs::ForeignLook look = look_at(options, options.files);
     std::size_t rows = 0;
     std::vector<std::string> warnings;
+    // Values are looked at where all is known that makes rows of them.
+    if (!options.out.empty() || options.strict) logs::require_whole(look);
+    if (options.out.empty() && options.strict) warnings = warnings_of(options, look);
     if (!options.out.empty()) {
-        logs::require_whole(look);
         note_all(options.file(), look.table.notes);
         note_all(options.file(), look.said);
-        rows = look.makes == logs::Makes::raw ? write_raw(options, look) : write_angles(options, look, warnings);
+        rows =
+            look.makes == logs::Makes::raw ? write_raw(options, look, warnings) : write_angles(options, look, warnings);
     }
     if (!options.write_mapping.empty()) {
         std::string toml = look.mapping.toml();

@@ -50,7 +50,7 @@ double even_angle(const CompensationConstants& gyro, EdgeShiftState& state, doub
     const double timer_ticks = gyro.tick.value() * gyro.timer.value();
     const double start = state.offset_ticks / timer_ticks, end = end_ticks / timer_ticks;
     const double turn = (counts - area) / (n_ticks + (end - start));
-    const double turn_at_end = state.follows ? turn + 0.5 * (turn - state.turn_counts) : turn;
+    const double turn_at_end = state.follows ? turn + n_ticks / (n_ticks + 1.0) * (turn - state.turn_counts) : turn;
     const double beyond_arcsec = scale * turn_at_end * end;
     const double given_arcsec = state.follows ? state.beyond_arcsec : scale * turn * start;
     state.offset_ticks = end_ticks;

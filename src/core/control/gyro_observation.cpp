@@ -78,9 +78,10 @@ void balance_light(const GyroControlConfig& c, GyroControlState& s, const Observ
     half.is_read = half.is_read && !o.monitored.stuck && !o.monitored.noisy;
     // The jump of a beam that has faded is not that of an offset; but one in switch after switch was no fading.
     if (o.monitored.has_jump && half.is_read) {
-        if (s.light_monitor.is_unbalanced)
+        if (s.light_monitor.is_unbalanced) {
+            s.light_balance.jumps *= forgotten_by_a_fault;
             s.light_balance.weights *= forgotten_by_a_fault;
-        else
+        } else
             learn_offset(s.light_balance, half, s.light_monitor.jump, c.detector.discriminator_per_lambda);
     }
     half.has_faded = s.light_monitor.is_unbalanced;

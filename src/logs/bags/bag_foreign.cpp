@@ -68,7 +68,10 @@ struct ImuRows {
     [[nodiscard]] TextTable table(const std::vector<std::int64_t>& wanted, std::int64_t times) const {
         TextTable all{.columns = {}, .times = {}, .names = names(), .n_columns = std::ssize(columns)};
         for (const std::int64_t number : wanted) all.columns.push_back(column(number));
-        if (times > 0) all.times = column(times);
+        if (times > 0) {
+            all.times = column(times);
+            all.times->origin = static_cast<double>(times == 1 ? sensor.first_stamp_ns : sensor.first_received_ns);
+        }
         const auto put = [this](TextColumn& to, const BagRow& row) {
             to.values.push_back(row.at(columns.at(static_cast<std::size_t>(to.number - 1))));
         };

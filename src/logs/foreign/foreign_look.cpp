@@ -207,6 +207,33 @@ void check_axes(ForeignLook& look, std::int64_t times) {
     if (const std::string clock = missing_of_clock(look.table, m); !clock.empty()) look.missing.push_back(clock);
 }
 
+// Keys that this kind of file does not read.
+void refuse_keys_of_others(const ForeignLook& look) {
+    struct Of {
+        std::string_view key;
+        std::array<std::string_view, 2> natures;
+        std::string_view what;
+    };
+    constexpr std::array<std::string_view, 2> text{"text", "text"}, tree{"HDF5", "a MATLAB"},
+        bag{"a ROS bag", "an MCAP"};
+    constexpr auto keys = std::to_array<Of>({{"separator", text, "text"},
+                                             {"decimal", text, "text"},
+                                             {"comment", text, "text"},
+                                             {"skip_lines", text, "text"},
+                                             {"encoding", text, "text"},
+                                             {"sensor", text, "text"},
+                                             {"table", tree, "HDF5 and MATLAB"},
+                                             {"topic", bag, "bags"}});
+    for (const Of& of : keys) {
+        const std::string value = look.mapping.text(of.key);
+        const bool reads = std::ranges::any_of(of.natures, [&](auto n) { return look.table.nature.starts_with(n); });
+        // That its rows are of one sensor can be said of any file.
+        if (!look.mapping.has(of.key) || reads || (of.key == "sensor" && value == "none")) continue;
+        throw MappingError(fmt::format("{}: {} = {} is of {}, and this is {}; allowed is to leave it out",
+                                       look.table.path, of.key, value, of.what, look.table.nature));
+    }
+}
+
 // Keys that only the other kind of import reads.
 void refuse_idle_keys(const ForeignLook& look) {
     constexpr std::array<std::string_view, 4> of_raw{"tick_s", "timer_hz", "mode_plus", "bias_sign_plus"};
@@ -224,14 +251,20 @@ void refuse_idle_keys(const ForeignLook& look) {
                 fmt::format("{}: {} = {} is {}; allowed is {}", look.table.path, key,
                             key == "axis" ? look.mapping.axes().front() : look.mapping.text(key),
                             is_raw ? "of angles, and this one has counts" : "of raw logs, and this one has no counts",
-                            is_raw ? "to leave it out, or counts" : "to leave it out; rows a second are rate_hz"));
+                            is_raw               ? "to leave it out, or counts"
+                            : key == "mode_plus" ? "it beside mode=COLUMN"
+                                                 : "to leave it out; rows a second are rate_hz"));
     }
+    if (look.mapping.has("table_unit") && !look.mapping.has("table_rate"))
+        throw MappingError(fmt::format("{}: table_unit = {} is of a rate table; allowed is it beside table_rate=COLUMN",
+                                       look.table.path, look.mapping.text("table_unit")));
 }
 
 }  // namespace
 
 ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
     ForeignLook look{.table = foreign_table(path, said), .mapping = said, .said = {}, .missing = {}, .may_be = {}};
+    refuse_keys_of_others(look);
     for (const ForeignColumn& column : look.table.columns)
         if (is_raw_key(text::lower_case(column.name)) && text::lower_case(column.name) == "counts" && !said.has("axis"))
             look.makes = Makes::raw;

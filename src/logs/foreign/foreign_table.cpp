@@ -84,10 +84,6 @@ void fill_columns(const std::string& path, TextTable& table, const std::vector<F
 
 std::string count_of(std::size_t n, const char* one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
 
-}  // namespace
-
-namespace {
-
 ForeignTable table_of(const std::string& path, const Mapping& mapping) {
     const std::string nature = foreign_nature(path);
     if (nature.starts_with("HDF5")) return hdf5_table_of(path, mapping);

@@ -126,8 +126,8 @@ private:
         clock_ = row_clock(from_.read(), path_, mapping, step);
         // Numbers of rows show which are missing, and not how long one is.
         knows_step_ = !step || !clock_.times || !numbers_rows(*from_.read().times, *clock_.times);
-        for (const auto* notes : {&clock_.notes, &clock_.warnings})
-            made_.notes.insert(made_.notes.end(), notes->begin(), notes->end());
+        std::ranges::copy(clock_.notes, std::back_inserter(made_.notes));
+        std::ranges::copy(clock_.warnings, std::back_inserter(made_.warnings));
         if (!holes_count) clock_.times.reset();
     }
 

@@ -20,8 +20,9 @@ void append(std::vector<double>& to, const std::vector<double>& values, double s
 // errors  MappingError: its times begin before those of the rows before it have ended.
 void append(TextTable& to, const TextTable& more, const std::string& path) {
     if (to.times) {
-        const double shift = more.times->origin_s - to.times->origin_s;
-        if (more.times->holds_dates && more.times->values.front() + shift <= to.times->values.back())
+        const double shift = more.times->origin - to.times->origin;
+        const bool is_absolute = more.times->holds_dates || more.times->origin != 0.0;
+        if (is_absolute && more.times->values.front() + shift <= to.times->values.back())
             throw MappingError(
                 fmt::format("{}, {}: begins before the file before it has ended; allowed are files in the "
                             "order of their times",

@@ -9,7 +9,6 @@
 #include <limits>
 #include <zlg/logs/error.hpp>
 
-#include "row_clock.hpp"
 #include "suspect_values.hpp"
 
 namespace zlg::logs {

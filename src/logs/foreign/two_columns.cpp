@@ -47,9 +47,11 @@ double parts_in(const ForeignColumn& whole, const ForeignColumn& part) {
     return std::ranges::is_sorted(times) && times.front() < times.back() ? parts : 0.0;
 }
 
-void join(std::vector<double>& whole, const std::vector<double>& part, double parts) {
+// What is taken off, the first second, for a double holds no nanoseconds since 1970.
+double join(std::vector<double>& whole, const std::vector<double>& part, double parts) {
     const double first = whole.empty() ? 0.0 : whole.front();
     for (std::size_t k = 0; k < whole.size(); ++k) whole[k] = whole[k] - first + part[k] / parts;
+    return first;
 }
 
 }  // namespace
@@ -64,7 +66,7 @@ void join_seconds(ForeignTable& table) {
                            .name = fmt::format("time of columns {} and {} [s]", c + 1, c + 2),
                            .first = fmt::format("{} + {}/{:g}", whole.first, part.first, parts),
                            .values = whole.values};
-        join(both.values, part.values, parts);
+        (void)join(both.values, part.values, parts);
         table.read = [read = std::move(table.read), number = both.number, name = both.name, parts,
                       first = whole.number](std::vector<std::int64_t> wanted, std::int64_t times) {
             if (times != number) return read(wanted, times);
@@ -74,7 +76,7 @@ void join_seconds(ForeignTable& table) {
             all.columns.pop_back();
             all.times = std::move(all.columns.back());
             all.columns.pop_back();
-            join(all.times->values, part_read.values, parts);
+            all.times->origin = join(all.times->values, part_read.values, parts);
             all.times->number = number;
             all.times->name = name;
             return all;

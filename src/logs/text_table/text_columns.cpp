@@ -235,7 +235,7 @@ private:
         if (!times.holds_dates && !times.values.empty()) return std::nullopt;
         const auto date = date_time(text);
         if (!date) return std::nullopt;
-        if (!times.holds_dates) times.origin_s = static_cast<double>(date->seconds) + date->fraction;
+        if (!times.holds_dates) times.origin = static_cast<double>(date->seconds) + date->fraction;
         times.holds_dates = true;
         times.is_local = times.is_local || !date->has_zone;
         return dates_.since_first(*date);

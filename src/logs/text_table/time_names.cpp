@@ -38,12 +38,17 @@ std::string next_word(std::string_view& name) {
     return small;
 }
 
-// Behind the group or the message that the column is in: `t` of data.t, meas/t and header.stamp.t [s].
+// Behind the group or the message that the column is in: `t` of data.t, meas/t and header.stamp.t [s], and `t/s` of
+// meas.t/s.
 std::string_view last_part(std::string_view name) {
     const std::string_view head = name.substr(0, name.find_first_of("[(<"));
     const std::size_t end = head.find_last_not_of(" ./");
-    const std::size_t at = head.find_last_of("./", end);
-    return end == std::string_view::npos || at == std::string_view::npos ? name : name.substr(at + 1);
+    if (end == std::string_view::npos) return name;
+    std::size_t at = head.find_last_of("./", end);
+    if (at == std::string_view::npos) return name;
+    std::string_view behind = head.substr(at + 1, end - at);
+    if (time_unit(next_word(behind)) && behind.empty()) at = at > 0 ? head.find_last_of("./", at - 1) : at;
+    return at == std::string_view::npos ? name : name.substr(at + 1);
 }
 
 // Words of a unit, with blanks between, and how many of it make a second.

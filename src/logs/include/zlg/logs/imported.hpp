@@ -43,6 +43,7 @@ struct ImportedRaw {
     RawHeader header;  // with tick_s and scale_arcsec among its settings
     std::vector<core::HalfRecord> rows;
     std::vector<std::string> notes;
+    std::vector<std::string> warnings;  // of the times, a line each
 };
 
 // Half-periods: rows that are missing by the times or the numbers of the halves become halves with `valid` 0; rows of a

@@ -10,7 +10,8 @@
 //   P = K (c - A) - x + x_before,  x = K (r + (r - r_before)/2) e_2/timer
 //
 // x is the rotation between the even and the shifted end of the tick, at the rate expected there. The next tick gets
-// back the very x that this one gives away, so that the sum of all P is that of the counts, less the area.
+// back the very x that this one gives away, so that the sum of all P is that of the counts, less the area. Of n ticks
+// read as one T is n ticks, the middle of the tick before lies (n + 1)/2 before theirs, and n/(n + 1) stands for 1/2.
 
 #include <cstdint>
 
