@@ -107,6 +107,39 @@ class Holes(ForeignCase):
         other = self.table("other.csv", "t_s,v_dph", [1, 2, 3], [1, 2, 4])
         self.refuse(2, "import", paths[0], other, says=("other.csv", "columns"))
 
+    def test_stamps_on_a_grid_that_is_no_decimal(self):
+        # Of 2000 rows none is missing: a clock that ticks 64 times a second, numbers of 32 bits, whole seconds.
+        k = numpy.arange(2000)
+        for rate, stamps in ((50, numpy.floor(k * 0.02 * 64) / 64), (100, numpy.float32(1e5 + k / 100).astype(float))):
+            path = self.table("g.csv", "t_s,w_dph", [f"{t:.7f}" for t in stamps], self.w(2000))
+            _, axis = self.mean(path)
+            self.assertEqual((axis["samples"], axis["gaps"]), (2000, 0))
+            self.assertAlmostEqual(axis["rate_hz"], rate, delta=0.001 * rate)
+        path = self.table("g.csv", "t_s,w_dph", numpy.floor(k / 0.95).astype(int), self.w(2000))
+        self.refuse(3, "analyze", path, says=("1.05", "105 are missing", "rate_hz"))
+        self.assertEqual(self.counted(path, "--map", "rate_hz=0.95"), (2000, 2000, 0))
+        self.assertEqual(self.counted(path, "--map", "rate_hz=1"), (2105, 2000, 105))
+        # By chance they are missing.
+        there = numpy.sort(numpy.random.default_rng(5).permutation(2105)[:2000])
+        path = self.table("g.csv", "t_s,w_dph", there, self.w(2000))
+        self.assertEqual(self.counted(path)[1], 2000)
+
+    def test_clocks_that_are_none(self):
+        k = numpy.arange(2000)
+        s = 36120 + k
+        self.refuse(3, "analyze", self.table("h.csv", "utc_s,w_dph", s // 3600 * 10000 + s // 60 % 60 * 100 + s % 60, self.w(2000)),
+                    says=("100259", "in one number"))
+        back = 13800 + k - 3600 * (k >= 600)
+        for form in (lambda t: f"2024-03-05T{t // 3600:02d}:{t // 60 % 60:02d}:{t % 60:02d}Z", lambda t: str(1_700_000_000 + t)):
+            self.refuse((2, 3), "analyze", self.table("b.csv", "time_s,w_dph", [form(int(t)) for t in back], self.w(2000)))
+        t = numpy.cumsum(numpy.where(k < 1000, 0.01, 0.01 / 1.05))
+        self.refuse(3, "analyze", self.table("r.csv", "t_s,w_dph", [f"{x:.6f}" for x in t], self.w(2000)), says=("one rate",))
+        date = self.table("d.csv", "date,time,w_dph", numpy.where(k < 600, "2024-12-30", "2024-12-31"),
+                          [f"{x // 3600:02d}:{x // 60 % 60:02d}:{x % 60:02d}" for x in 36000 + k], self.w(2000))
+        self.assertIn("'date'", run("analyze", date).stderr)
+        paths = [self.table(f"z{i}.csv", "t_s,w_dph", k, self.w(2000)) for i in range(2)]
+        self.refuse(2, "import", *paths, "--out", self.folder / "z_out.csv", says=("z1.csv", "first file"))
+
     def test_what_is_not_used_is_named(self):
         n = 400
         t = numpy.arange(n) * 0.01

@@ -27,6 +27,12 @@ void append(TextTable& to, const TextTable& more, const std::string& path) {
                 fmt::format("{}, {}: begins before the file before it has ended; allowed are files in the "
                             "order of their times",
                             path, described(*more.times)));
+        // A clock of each file's own says nothing of the time between them.
+        if (!is_absolute && more.times->values.front() == to.times->values.front())
+            throw MappingError(
+                fmt::format("{}, {}: begins with {} as that of the first file; allowed are times of one "
+                            "clock, or --map time=none with rate_hz if no rows are missing between them",
+                            path, described(*more.times), more.times->values.front()));
         append(to.times->values, more.times->values, shift);
     }
     for (std::size_t c = 0; c < to.columns.size(); ++c) append(to.columns[c].values, more.columns[c].values, 0.0);

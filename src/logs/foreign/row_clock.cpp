@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <optional>
 #include <span>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/time_check.hpp>
@@ -13,8 +15,9 @@ namespace zlg::logs {
 
 namespace {
 
-// The number with the fewest digits that the times allow.
-double simplest(double step, double tolerance) {
+// The number with the fewest digits that the times allow, and that leaves the rate to a thousandth.
+double simplest(double step, double allowed) {
+    const double tolerance = std::min(allowed, 1e-3);
     for (int digits = 1; digits < 17; ++digits) {
         const double rounded = std::strtod(fmt::format("{:.{}e}", step, digits - 1).c_str(), nullptr);
         if (std::fabs(rounded - step) <= tolerance * step) return rounded;
@@ -102,14 +105,43 @@ void check_one_rate(const TextColumn& times, const RowTimes& found, const std::s
         if (std::fabs(step - found.step) > 0.2 * found.step) refuse(from, step);
         ++from;
     }
+    // The first and the last third by the numbers of their rows, missing ones with them, each as well as its ends are
+    // known. A hundredth: no clock drifts by so much.
+    constexpr double most_apart = 0.01;
+    const std::size_t third = t.size() / 3;
+    if (third < window) return;
+    const auto step_of = [&](std::size_t begin, std::size_t end) {
+        double rows = static_cast<double>(end - begin);
+        for (const Hole& hole : found.holes)
+            if (hole.row >= begin && hole.row < end) rows += static_cast<double>(hole.n_missing);
+        return (t[end] - t[begin]) / rows;
+    };
+    const double first = step_of(0, third), last = step_of(t.size() - 1 - third, t.size() - 1);
+    const double known = 6.0 * (found.tolerance - 1e-3);
+    if (std::fabs(last - first) > (most_apart + known) * found.step) refuse(t.size() - 1 - third, last);
 }
 
-// The decimal place to which stamps are rounded, where that is no small part of a row; 0: it is.
-double coarse_place(std::span<const double> t, double step) {
+// The place to which stamps are rounded, where that is no small part of a row; 0: it is. A decimal one, or the smallest
+// step, as of a clock that ticks or of numbers of 32 bits.
+struct Place {
+    double size = 0.0;
+    bool is_decimal = false;
+};
+
+Place coarse_place(std::span<const double> t, double step) {
     for (double place = std::pow(10.0, std::floor(std::log10(step) + 1e-9)); place > 0.2 * step; place /= 10.0)
         if (std::ranges::all_of(t, [place](double v) { return std::fabs(v / place - std::round(v / place)) < 1e-4; }))
-            return place;
-    return 0.0;
+            return {place, true};
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < t.size(); ++k)
+        if (t[k] > t[k - 1]) least = std::min(least, t[k] - t[k - 1]);
+    const double far = std::max(std::fabs(t.front()), std::fabs(t.back()));
+    const double rounding = 1e-3 + 4.0 * far * std::numeric_limits<double>::epsilon() / least;
+    const bool are_multiples = rounding < 0.1 && std::ranges::all_of(t, [&](double v) {
+                                   const double n = (v - t.front()) / least;
+                                   return std::fabs(n - std::round(n)) < rounding;
+                               });
+    return {are_multiples && least > 0.2 * step ? least : 0.0, false};
 }
 
 // Of the strip about an even course that holds all times; convex in the step.
@@ -124,17 +156,21 @@ double width_about(std::span<const double> t, double step) {
 }
 
 // Rounded stamps of rows that are no whole number of places apart show rows that are missing only where the stamps are
-// all within a place of an even course.
-void check_coarse(const TextColumn& times, RowTimes& found, const std::string& path) {
+// all within a place of an even course. Where few steps are odd and lie as evenly as those of such a course, both may
+// be: `said`, the step that is said, decides; 0: none is.
+void check_coarse(const TextColumn& times, RowTimes& found, double said, const std::string& path) {
     const std::vector<double>& t = times.values;
     const double mean = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
-    const double place = coarse_place(t, std::min(mean, found.step));
+    const auto [place, is_decimal] = coarse_place(t, std::min(mean, found.step));
     if (place == 0.0) return;
     std::size_t n_odd = 0;
     for (std::size_t k = 1; k < t.size(); ++k)
         n_odd += std::fabs((t[k] - t[k - 1]) - found.step) > 0.1 * place ? 1u : 0u;
-    // Of whole numbers of places only holes are odd.
-    if (n_odd < 3 || 10 * n_odd < t.size()) return;
+    // Of whole numbers of places only holes are odd. So many that came by chance lie as evenly as those of another rate
+    // once in 12^12/12!, 20 000.
+    constexpr std::size_t fewest_even = 12;
+    const bool are_few = 10 * n_odd < t.size();
+    if (n_odd < 3 || (are_few && n_odd < fewest_even)) return;
     const double n_steps = static_cast<double>(t.size() - 1);
     double least = mean - place / n_steps, most = mean + place / n_steps;
     for (int pass = 0; pass < 40; ++pass) {
@@ -145,10 +181,20 @@ void check_coarse(const TextColumn& times, RowTimes& found, const std::string& p
             least = lower;
     }
     const double step = (least + most) / 2.0;
-    if (width_about(t, step) <= 1.01 * place) {
+    const bool is_even = width_about(t, step) <= 1.01 * place;
+    if (are_few) {
+        if (!is_even || (said > 0.0 && std::fabs(said - found.step) < std::fabs(said - step))) return;
+        if (said == 0.0)
+            throw FormatError(fmt::format(
+                "{}, {}: its times, rounded to {:g}, are those of rows {:.6g} apart, and of rows {:.6g} apart of which "
+                "{} are missing; allowed is one of both: --map rate_hz=...",
+                path, described(times), place, step, found.step, found.n_missing));
+    }
+    if (is_even) {
         found = {.step = step, .tolerance = 1e-3 + 2.0 * place / (t.back() - t.front()), .holes = {}, .n_missing = 0};
         return;
     }
+    if (!is_decimal) return;
     throw FormatError(fmt::format(
         "{}, {}: its times are rounded to {:g}, with rows about {:.6g} apart, and not even, so that they do not "
         "say which rows are missing; --map time=none and --map rate_hz=... if none are",
@@ -194,14 +240,16 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
         return clock;
     }
     check_repetitions(times, path);
-    check_coarse(times, *clock.times, path);
+    const auto unit = known_time_unit(path, times.name, times.holds_dates, mapping);
+    const double said = presumed_step_s.value_or(0.0) * unit.value_or(0.0);
+    check_coarse(times, *clock.times, said, path);
+    refuse_clock_digits(times, *clock.times, path);
     check_holes(times, *clock.times, path);
     refuse_many_missing(path, described(times), times.values, *clock.times,
                         "; --map time=none with rate_hz if none are missing");
     check_local_time(times, *clock.times, path);
     check_one_rate(times, *clock.times, path);
     const double step = clock.times->step;
-    const auto unit = known_time_unit(path, times.name, times.holds_dates, mapping);
     if (unit) {
         const double by_times_s = step / *unit;
         if (presumed_step_s && std::fabs(by_times_s / *presumed_step_s - 1.0) > clock.times->tolerance)

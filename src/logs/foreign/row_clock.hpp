@@ -18,14 +18,19 @@ struct RowClock {
     std::vector<std::string> warnings;  // of the times, a line each
 };
 
-// The range after which whole numbers or times begin anew, and else rise; 0: they do not.
-[[nodiscard]] double begin_of_range(std::span<const double> values);
+// The range after which whole numbers or times begin anew, and else rise; 0: they do not. `origin` was taken off them.
+[[nodiscard]] double begin_of_range(std::span<const double> values, double origin = 0.0);
 
 // Such values as if their range had no end; returns the range. 0: they have none, and are left.
-double go_on(std::vector<double>& values);
+double go_on(std::vector<double>& values, double origin = 0.0);
 
 // Makes times that begin anew go on; returns notes.
 [[nodiscard]] std::vector<std::string> settle_times(TextTable& read);
+
+// Hours, minutes and seconds in one number: each hole is from a 59th second to a full minute.
+//
+// errors  FormatError: they are.
+void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const std::string& path);
 
 // Leaves out rows that repeat the row before and come far too soon after it; returns what was left out, a line.
 //

@@ -184,6 +184,12 @@ std::vector<std::string> unused_times(const ForeignTable& table, const Mapping& 
         // Another column of times was held against the first where both are named.
         const bool holds_words = times == 0 && (is_named || mentions_time(column.name)) && !column.is_number;
         const bool is_left = times == 0 || merely_numbers(column_at(table, times));
+        // A date (datum) beside the time of the day.
+        if (times != 0 && !column.is_number && text::lower_case(column.name).starts_with("dat")) {
+            notes.push_back(
+                fmt::format("{}: holds dates, and is not used: days that are missing are not seen", described(column)));
+            continue;
+        }
         if (holds_words)
             notes.push_back(fmt::format("{}: is named as times are, and '{}' is none that is known", described(column),
                                         column.first));

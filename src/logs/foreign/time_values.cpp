@@ -43,7 +43,7 @@ bool is_again(const std::vector<double>& t, std::size_t k, double usual) {
 
 }  // namespace
 
-double begin_of_range(std::span<const double> values) {
+double begin_of_range(std::span<const double> values, double origin) {
     std::vector<double> steps, falls;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -58,7 +58,9 @@ double begin_of_range(std::span<const double> values) {
     const double usual = quantile(std::move(steps), 0.5);
     if (!(usual > 0.0)) return 0.0;
     for (const double range : ranges(std::ranges::all_of(values, [](double v) { return v == std::floor(v); }))) {
-        if (most - least >= range) continue;
+        const bool fits =
+            (least + origin >= 0.0 && most + origin <= range) || (-least <= range / 2.0 && most <= range / 2.0);
+        if (!fits) continue;
         const auto n_plain =
             std::ranges::count_if(falls, [&](double fall) { return std::fabs(fall + range - usual) <= usual / 2.0; });
         const bool all_rise =
@@ -69,8 +71,8 @@ double begin_of_range(std::span<const double> values) {
     return 0.0;
 }
 
-double go_on(std::vector<double>& values) {
-    const double range = begin_of_range(values);
+double go_on(std::vector<double>& values, double origin) {
+    const double range = begin_of_range(values, origin);
     if (range == 0.0) return 0.0;
     double turns = 0.0;
     for (std::size_t k = 1; k < values.size(); ++k) {
@@ -81,13 +83,31 @@ double go_on(std::vector<double>& values) {
 }
 
 std::vector<std::string> settle_times(TextTable& read) {
-    if (!read.times) return {};
-    const double range = go_on(read.times->values);
+    // A date never begins anew, a time of the day does.
+    constexpr double day_s = 86400.0;
+    if (!read.times || (read.times->holds_dates && read.times->origin > day_s)) return {};
+    const double range = go_on(read.times->values, read.times->origin);
     if (range == 0.0) return {};
     return {
         fmt::format("{}: begins anew after {:.10g}, and is read as going on; rows that are missing are not seen "
                     "where they fill that range",
                     described(*read.times), range)};
+}
+
+void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const std::string& path) {
+    constexpr std::size_t fewest = 2;
+    constexpr double hidden_s = 40.0;  // from 59 to 100
+    if (found.holes.size() < fewest || times.holds_dates || found.step >= hidden_s) return;
+    const bool are_minutes = std::ranges::all_of(found.holes, [&](const Hole& hole) {
+        const double before = std::fmod(times.values[hole.row], 100.0), after = times.values[hole.row + 1];
+        return before < 60.0 && before + found.step > 59.5 && std::fmod(after, 100.0) < 1.5 * found.step;
+    });
+    if (!are_minutes) return;
+    const std::size_t row = found.holes.front().row;
+    throw FormatError(fmt::format(
+        "{}, {}: jumps from {} to {} as hours, minutes and seconds in one number do; allowed are seconds, or "
+        "--map time=none with rate_hz",
+        path, described(times), times.values[row], times.values[row + 1]));
 }
 
 std::vector<std::string> take_once(TextTable& read, const std::string& path) {
