@@ -17,11 +17,11 @@ class Reference(unittest.TestCase):
         self.assertTrue(written.endswith(listed), "renew the tables of docs/configuration.md with: zlg --keys")
 
 
-class Readme(unittest.TestCase):
+class OwnLog(unittest.TestCase):
     def test_its_example_log_gives_the_angles_that_it_says(self):
-        lines = (ROOT / "README.md").read_text().splitlines()
-        start = lines.index("    # gyro.tick_s = 0.005")
-        log = [line[4:] for line in lines[start:lines.index("", start)]]
+        lines = (ROOT / "docs" / "own_log.md").read_text().splitlines()
+        start = lines.index("# gyro.tick_s = 0.005")
+        log = lines[start:lines.index("DATA", start)]
         with tempfile.TemporaryDirectory() as folder:
             raw, angles = Path(folder) / "raw.csv", Path(folder) / "angles.csv"
             raw.write_text("\n".join(log) + "\n")
