@@ -54,6 +54,9 @@ constexpr std::array verb_table{
     VerbHelp{"follow", processing,
              "  zlg follow /dev/ttyUSB0 --baud 921600 --out angles.h5\n"
              "  zlg follow tcp:192.168.0.7:5000 --duration 3600 --out angles.csv"},
+    VerbHelp{"settings", processing,
+             "  zlg settings gyro.toml --out settings.bin\n"
+             "  zlg settings settings.bin --to /dev/ttyUSB0"},
     VerbHelp{"convert", processing,
              "  zlg convert raw.h5 --out raw.csv\n"
              "  zlg convert angles.h5 --out angles.mat"},
@@ -95,6 +98,7 @@ constexpr std::array kinds{
     Kind{"--switches", "FILE.csv"},
     Kind{"--give-up", "SECONDS"},
     Kind{"--run-lengths", "SECONDS,..."},
+    Kind{"--to", "DEVICE|ADDRESS"},
     Kind{"--baud", "NUMBER"},
     Kind{"--port", "NUMBER"},
     Kind{"--mapping", "FILE.toml"},

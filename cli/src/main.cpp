@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
     cli::add_follow(program);
     cli::add_inspect(program);
     cli::add_lab(program);
+    cli::add_settings(program);
     cli::add_analyze(program);
     cli::complete_help(program);
     const cli::InterruptGuard guard;

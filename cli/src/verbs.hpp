@@ -20,5 +20,6 @@ void add_follow(CLI::App& program);
 void add_inspect(CLI::App& program);
 void add_analyze(CLI::App& program);
 void add_lab(CLI::App& program);
+void add_settings(CLI::App& program);
 
 }  // namespace zlg::cli

@@ -1,11 +1,13 @@
 #include "background.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
 
 #include <zlg/firmware/half_period.hpp>
 #include <zlg/firmware/port.hpp>
+#include <zlg/firmware/stored.hpp>
 #include <zlg/wire/status.hpp>
 
 #include "telemetry_queue.hpp"
@@ -15,6 +17,21 @@ namespace {
 
 // Mostly zeros, which need not lie in the flash.
 alignas(Background) constinit std::array<std::byte, sizeof(Background)> memory{};
+
+constexpr wire::CommandResult result_of(StoredFault fault) noexcept {
+    switch (fault) {
+        case StoredFault::none:
+            return wire::CommandResult::done;
+        case StoredFault::other_program:
+            return wire::CommandResult::other_program;
+        case StoredFault::refused:
+            return wire::CommandResult::not_allowed;
+        case StoredFault::other_kind:
+        case StoredFault::damaged:
+            break;
+    }
+    return wire::CommandResult::damaged;
+}
 
 // Bytes of commands that one round takes.
 constexpr std::size_t bytes_a_round = 64;
@@ -34,6 +51,7 @@ void Background::start(const wire::GyroSettings& settings, std::uint16_t session
 void Background::run() noexcept {
     if (settings_wait_) settings_wait_ = !try_change_settings(commands_.settings);
     send_rest();
+    if (restart_due_ && sent_ == out_.size) port::restart();
     // One frame after the other: an answer first, for somebody waits for it.
     if (sent_ == out_.size) listen();
     send();
@@ -82,11 +100,40 @@ void Background::listen() noexcept {
     for (std::size_t k = 0; k < bytes_a_round && port::receive(byte) == byte.size(); ++k) {
         std::span<const std::uint8_t> bytes{byte};
         if (!receive(receiver_, bytes, message)) continue;
-        const wire::CommandOutput out = handle(commands_, message);
+        wire::CommandOutput out = handle(commands_, message);
         if (!out.has_reply) continue;
         execute(out.effect);
+        if (out.effect.load) {
+            load(*piece_in(message), out.reply);
+            commands_.last = out.reply;
+        }
         return queue(frame_of(sender_, out.reply));
     }
+}
+
+void Background::load(const wire::SettingsPiece& piece, wire::Reply& reply) noexcept {
+    using enum wire::CommandResult;
+    if (!piece.bytes.empty()) {
+        if (!port::stage(piece.offset, piece.bytes)) reply.result = malformed;
+        return;
+    }
+    const auto bytes = port::staged().first(std::min<std::size_t>(piece.offset, port::staged().size()));
+    const StoredFault fault = fault_of(bytes);
+    if (fault == StoredFault::refused) {
+        const SettingsFault why = check(settings_in(bytes));
+        const bool by_control = why.control != core::GyroControlFault::none;
+        reply.part = by_control ? wire::RefusingPart::control : wire::RefusingPart::compensation;
+        reply.fault = by_control ? static_cast<std::uint8_t>(why.control) : static_cast<std::uint8_t>(why.compensation);
+    }
+    reply.result = result_of(fault);
+    if (reply.result != done) return;
+    if (is_switching()) {
+        reply.result = switch_under_way;
+        return;
+    }
+    hold_switching(true);
+    port::store(settings_in(bytes));
+    restart_due_ = true;
 }
 
 void Background::execute(const wire::CommandEffect& effect) noexcept {

@@ -25,6 +25,7 @@ private:
     void send_status() noexcept;
     void listen() noexcept;
     void execute(const wire::CommandEffect& effect) noexcept;
+    void load(const wire::SettingsPiece& piece, wire::Reply& reply) noexcept;
     void queue(const wire::Frame& frame) noexcept;
 
     wire::CommandState commands_{};
@@ -34,6 +35,7 @@ private:
     std::size_t sent_ = 0;
     bool settings_wait_ = false;  // for the border of a tick
     bool status_due_ = false;
+    bool restart_due_ = false;  // once the reply is out
     std::uint32_t health_ = 0;
     std::uint32_t ticks_since_status_ = 0;
 };

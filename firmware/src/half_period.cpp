@@ -75,6 +75,14 @@ void force_switch() noexcept {
     gyro().force_switch();
 }
 
+// A gyro that has no light, or not yet its own settings, searches for a mode without end.
+bool is_switching() noexcept {
+    using enum core::SwitchPhase;
+    const port::Quiet quiet;
+    const core::ModeSwitchState& state = gyro().state().control.mode_switch;
+    return state.phase == open || state.phase == returning || (state.phase == settling && state.switching);
+}
+
 wire::Status status_of_gyro(const core::GyroCompensationConfig& config) noexcept {
     const port::Quiet quiet;
     wire::Status status = wire::status_of(gyro().state().control, gyro().state().compensation, config);

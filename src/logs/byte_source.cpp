@@ -60,12 +60,15 @@ void make_raw(int fd, const std::string& name, speed_t speed) {
     if (::cfsetspeed(&settings, speed) != 0 || ::tcsetattr(fd, TCSANOW, &settings) != 0) fail_io("set up", name, errno);
 }
 
-FileDescriptor open_path(const std::string& path, speed_t speed) {
+FileDescriptor open_path(const std::string& path, speed_t speed, bool writes) {
     // Not to wait for the other end of a pipe, or for the carrier of a modem.
-    FileDescriptor file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)};
+    const int access = writes ? O_RDWR : O_RDONLY;
+    FileDescriptor file{::open(path.c_str(), access | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)};
     if (!file.is_open()) fail_io("open", path, errno);
     struct stat what {};
     if (::fstat(file.get(), &what) == 0 && S_ISDIR(what.st_mode)) fail_io("read", path, EISDIR);
+    if (writes && !S_ISCHR(what.st_mode))
+        throw SourceError{fmt::format("{}: allowed is a serial device, tcp:HOST:PORT or unix:PATH", path)};
     if (::isatty(file.get()) != 0) make_raw(file.get(), path, speed);
     return file;
 }
@@ -120,18 +123,18 @@ FileDescriptor connect_unix(const std::string& name) {
     fail_io("connect to", name, errno);
 }
 
-FileDescriptor opened(const std::string& source, speed_t speed) {
-    if (source == "-") return FileDescriptor{STDIN_FILENO};
+FileDescriptor opened(const std::string& source, speed_t speed, bool writes) {
+    if (source == "-" && !writes) return FileDescriptor{STDIN_FILENO};
     if (source.starts_with("tcp:")) return connect_tcp(source);
     if (source.starts_with("unix:")) return connect_unix(source);
-    return open_path(source, speed);
+    return open_path(source, speed, writes);
 }
 
 }  // namespace
 
-ByteSource::ByteSource(const std::string& source, int baud)
+ByteSource::ByteSource(const std::string& source, int baud, Access access)
     : name_{source == "-" ? "standard input" : source},
-      fd_{opened(source, speed_of(baud)).release()},
+      fd_{opened(source, speed_of(baud), access == Access::both).release()},
       owned_{source != "-"} {}
 
 ByteSource::~ByteSource() {
@@ -154,6 +157,17 @@ ByteSource::Read ByteSource::read(std::span<std::uint8_t> buffer, std::size_t& n
     const int error = errno;
     if ((error == EIO && ::isatty(fd_) != 0) || error == ECONNRESET) return Read::end;
     fail_io("read", name_, error);
+}
+
+void ByteSource::write(std::span<const std::uint8_t> bytes) {
+    constexpr int patience_ms = 2000;
+    while (!bytes.empty()) {
+        pollfd ready{.fd = fd_, .events = POLLOUT, .revents = 0};
+        if (::poll(&ready, 1, patience_ms) == 0) fail_io("write to", name_, ETIMEDOUT);
+        const ssize_t put = ::write(fd_, bytes.data(), bytes.size());
+        if (put > 0) bytes = bytes.subspan(static_cast<std::size_t>(put));
+        if (put < 0 && errno != EINTR && errno != EAGAIN) fail_io("write to", name_, errno);
+    }
 }
 
 }  // namespace zlg::logs

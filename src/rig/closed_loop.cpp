@@ -37,7 +37,6 @@ const twin::TwinHalf& advance_twin(twin::Twin& twin, const core::ActuatorFrame& 
     }
 }
 
-// The configured compensation; where the schedule asks for measurements, with the magnetic drift at least watched.
 core::GyroCompensationConfig adviser_config(const config::Config& config) {
     config::Config watching = config;
     if (config.switching.schedule == config::Schedule::measured &&
@@ -47,6 +46,10 @@ core::GyroCompensationConfig adviser_config(const config::Config& config) {
 }
 
 }  // namespace
+
+ProcessorSettings processor_settings(const config::Config& config) {
+    return {control_config(config), adviser_config(config)};
+}
 
 ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion, Processor* processor)
     : config_{config},
@@ -58,7 +61,7 @@ ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion, Proces
       sensor_{&before_the_first},
       processor_{processor} {
     if (processor_)
-        actuator_ = processor_->start({control_config_, adviser_config(config)});
+        actuator_ = processor_->start(processor_settings(config));
     else if (config.switching.schedule == config::Schedule::measured)
         adviser_.emplace(adviser_config(config));
 }

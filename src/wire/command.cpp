@@ -6,6 +6,7 @@ namespace zlg::wire {
 namespace {
 
 constexpr std::size_t command_head_bytes = 2;
+constexpr std::size_t piece_head_bytes = 4;
 constexpr std::size_t reply_head_bytes = 13;
 constexpr std::size_t parameter_bytes = 10;
 
@@ -38,6 +39,13 @@ Frame frame_of(Sender& sender, const Command& command) noexcept {
     return frame_of(sender, MessageType::command, p.body());
 }
 
+Frame frame_of(Sender& sender, const SettingsPiece& piece) noexcept {
+    Packer p;
+    p(CommandCode::load, static_cast<std::uint8_t>(piece.bytes.size()), piece.offset);
+    for (const std::uint8_t byte : piece.bytes) p(byte);
+    return frame_of(sender, MessageType::command, p.body());
+}
+
 Frame frame_of(Sender& sender, const Reply& reply) noexcept {
     Packer p;
     lay_out(p, reply);
@@ -55,12 +63,23 @@ std::optional<Command> command_in(const Message& message) noexcept {
     return command;
 }
 
+std::optional<SettingsPiece> piece_in(const Message& message) noexcept {
+    if (message.type != MessageType::command || message.body.size() < piece_head_bytes) return std::nullopt;
+    Unpacker u{message.body};
+    CommandCode code{};
+    std::uint8_t n = 0;
+    SettingsPiece piece{.bytes = message.body.subspan(piece_head_bytes)};
+    u(code, n, piece.offset);
+    if (code != CommandCode::load || n > max_piece_bytes || n != piece.bytes.size()) return std::nullopt;
+    return piece;
+}
+
 std::optional<Reply> reply_in(const Message& message) noexcept {
     if (message.type != MessageType::reply || message.body.size() < reply_head_bytes) return std::nullopt;
     Unpacker u{message.body};
     Reply reply;
     lay_out(u, reply);
-    if (reply.result > CommandResult::not_allowed || reply.part > RefusingPart::compensation) return std::nullopt;
+    if (reply.result > CommandResult::switch_under_way || reply.part > RefusingPart::compensation) return std::nullopt;
     if (!unpack(u, message.body.size() - reply_head_bytes, reply.parameters)) return std::nullopt;
     return reply;
 }

@@ -101,6 +101,8 @@ void obey(CommandState& state, const Command& command, Reply& reply, CommandEffe
         case CommandCode::set_parameters:
             set(state.settings, command.parameters, reply, effect);
             break;
+        case CommandCode::load:  // is no command with parameters
+            break;
     }
 }
 
@@ -123,6 +125,8 @@ CommandOutput handle(CommandState& state, const Message& message) noexcept {
     out.reply.code = message.body.empty() ? std::uint8_t{0} : message.body.front();
     if (const auto command = command_in(message)) {
         obey(state, *command, out.reply, out.effect);
+    } else if (piece_in(message)) {
+        out.effect.load = true;
     } else {
         out.reply.result = CommandResult::malformed;
     }

@@ -3,8 +3,9 @@
 import struct
 
 TELEMETRY, STATUS, COMMAND, REPLY = 1, 2, 3, 4
-READ_STATE, STOP, START, FORCE, READ, SET = range(1, 7)
-DONE, MALFORMED, UNKNOWN_KEY, READ_ONLY, NO_VALUE, NOT_ALLOWED = range(6)
+READ_STATE, STOP, START, FORCE, READ, SET, LOAD = range(1, 8)
+DONE, MALFORMED, UNKNOWN_KEY, READ_ONLY, NO_VALUE, NOT_ALLOWED, DAMAGED, OTHER_PROGRAM, SWITCHING = range(9)
+PIECE_BYTES = 224
 BODY_BYTES = {TELEMETRY: 108, STATUS: 96}
 
 
@@ -51,6 +52,11 @@ def command(session, sequence, code, *parameters):
     items = [item if isinstance(item, tuple) else (item, 0.0) for item in parameters]
     return frame(COMMAND, session, sequence, struct.pack("<BB", code, len(items)) +
                  b"".join(struct.pack("<Hd", *item) for item in items))
+
+
+def piece(session, sequence, offset, data=b""):
+    """Of settings that are loaded; the last one is empty."""
+    return frame(COMMAND, session, sequence, struct.pack("<BBH", LOAD, len(data), offset) + data)
 
 
 class Message:

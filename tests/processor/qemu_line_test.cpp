@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <zlg/config/config.hpp>
+#include <zlg/firmware/stored.hpp>
 #include <zlg/processor/qemu.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/wire_stream.hpp>
@@ -141,8 +142,20 @@ public:
     int advance() {
         const rig::LoopHalf half = loop_.advance();
         (void)line_.hear();
+        is_closed_ = half.control.actuator.loop_closed;
         return half.control.has_event && half.control.event.outcome == core::SwitchOutcome::switched ? 1 : 0;
     }
+
+    // To a piece of settings, without a half meanwhile.
+    wire::CommandResult answer(const wire::SettingsPiece& piece) {
+        const std::size_t n_replies = line_.hear().replies.size();
+        line_.send(frame_of(sender_, piece));
+        for (int most = 20'000; most > 0 && line_.hear().replies.size() == n_replies; --most) usleep(1000);
+        if (line_.hear().replies.size() == n_replies) throw std::runtime_error{"the gyro does not answer"};
+        return line_.hear().replies.back().result;
+    }
+
+    [[nodiscard]] bool is_closed() const { return is_closed_; }
 
     int last_mode() {
         for (int k = 0; k < 8; ++k) (void)advance();
@@ -165,6 +178,7 @@ private:
     QemuProcessor qemu_;
     rig::ClosedLoop loop_{gyro(), rig::motion(gyro()), &qemu_};
     wire::Sender sender_{.session = 5};
+    bool is_closed_ = true;
 };
 
 TEST(QemuLine, the_parameters_are_those_that_the_gyro_was_started_with) {
@@ -185,6 +199,24 @@ TEST(QemuLine, what_is_set_is_what_the_gyro_runs_by) {
     wire::Command command = about(interval_ticks, wire::CommandCode::set_parameters);
     command.parameters.items[0].value = 100.0;
     EXPECT_GE(gyro.switches_after(command, 5 * second), 9) << "two a second";
+}
+
+// The host sets the pace: while it waits for the answer the gap goes on.
+TEST(QemuLine, nothing_is_loaded_while_a_switch_is_under_way) {
+    const auto image = test::built_image();
+    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
+    Driven gyro{*image};
+    const rig::ProcessorSettings made = rig::processor_settings(config::Config{});
+    alignas(firmware::Settings) std::array<std::uint8_t, firmware::stored_bytes> bytes{};
+    firmware::put_stored({made.control, made.compensation}, bytes);
+    for (std::size_t at = 0; at < bytes.size(); at += wire::max_piece_bytes)
+        EXPECT_EQ(
+            gyro.answer({.offset = static_cast<std::uint16_t>(at),
+                         .bytes = std::span{bytes}.subspan(at, std::min(wire::max_piece_bytes, bytes.size() - at))}),
+            wire::CommandResult::done);
+    while (gyro.is_closed()) (void)gyro.advance();
+    EXPECT_EQ(gyro.answer({.offset = firmware::stored_bytes}), wire::CommandResult::switch_under_way);
+    EXPECT_EQ(gyro.switches_after({.code = wire::CommandCode::read_state}, second), 1) << "the gyro goes on";
 }
 
 TEST(QemuLine, switching_stops_is_forced_and_starts_again) {

@@ -58,6 +58,14 @@ TEST(CommandHandler, EachCommandHasItsEffect) {
     EXPECT_EQ(bench.send({.code = CommandCode::force_switch}).effect, (CommandEffect{.force_switch = true}));
 }
 
+TEST(CommandHandler, APieceOfSettingsIsLeftToTheCaller) {
+    Bench bench;
+    const std::array<std::uint8_t, 3> bytes{1, 2, 3};
+    const Frame frame = frame_of(bench.host, SettingsPiece{.offset = 9, .bytes = bytes});
+    EXPECT_EQ(bench.deliver(frame).effect, (CommandEffect{.load = true}));
+    EXPECT_EQ(bench.deliver(frame).effect, CommandEffect{}) << "the same frame again";
+}
+
 TEST(CommandHandler, WhatIsNoCommandHasNoAnswer) {
     Bench bench;
     EXPECT_FALSE(bench.deliver(frame_of(bench.host, Reply{})).has_reply);

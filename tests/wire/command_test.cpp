@@ -45,6 +45,33 @@ TEST(Command, OfUnknownCodeOrOtherLengthIsRefused) {
     EXPECT_FALSE(command_in({.type = MessageType::reply, .body = body}).has_value());
 }
 
+TEST(SettingsPiece, ArrivesAsItWasSent) {
+    std::vector<std::uint8_t> bytes(max_piece_bytes);
+    for (std::size_t k = 0; k < bytes.size(); ++k) bytes[k] = static_cast<std::uint8_t>(k);
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, max_piece_bytes}) {
+        const auto body = body_of(SettingsPiece{.offset = 0x1234, .bytes = std::span{bytes}.first(n)});
+        EXPECT_EQ(std::vector(body.begin(), body.begin() + 4),
+                  (std::vector<std::uint8_t>{7, static_cast<std::uint8_t>(n), 0x34, 0x12}));
+        const auto piece = piece_in({.type = MessageType::command, .body = body});
+        ASSERT_TRUE(piece);
+        EXPECT_EQ(piece->offset, 0x1234);
+        EXPECT_TRUE(std::ranges::equal(piece->bytes, std::span{bytes}.first(n)));
+    }
+}
+
+TEST(SettingsPiece, OfOtherCodeOrLengthIsRefused) {
+    const std::vector<std::uint8_t> bytes(10);
+    const auto body = body_of(SettingsPiece{.bytes = bytes});
+    const auto is_taken = [](std::vector<std::uint8_t> changed) {
+        return piece_in({.type = MessageType::command, .body = changed}).has_value();
+    };
+    EXPECT_TRUE(is_taken(body));
+    EXPECT_FALSE(is_taken({body.begin(), body.end() - 1}));
+    EXPECT_FALSE(is_taken({7, 0, 0}));
+    EXPECT_FALSE(is_taken({6, 0, 0, 0}));
+    EXPECT_FALSE(piece_in({.type = MessageType::reply, .body = body}).has_value());
+}
+
 TEST(Reply, ArrivesAsItWasSent) {
     const Reply reply{.session = 0x1234,
                       .sequence = 0x89ABCDEF,
@@ -72,7 +99,7 @@ TEST(Reply, HasTheLayoutOfTheDescription) {
 TEST(Reply, WhatNoGyroSendsIsRefused) {
     auto body = body_of(Reply{});
     EXPECT_TRUE(reply_in({.type = MessageType::reply, .body = body}).has_value());
-    body[7] = 6;
+    body[7] = 9;
     EXPECT_FALSE(reply_in({.type = MessageType::reply, .body = body}).has_value());
     body[7] = 0;
     body[10] = 3;

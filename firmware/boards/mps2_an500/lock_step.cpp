@@ -29,12 +29,23 @@ void start_by(Exchange& x) noexcept {
     if (x.fault == SettingsFault{}) x.first_actuator = start_gyro(x.settings, x.counter);
 }
 
+void start_stored(Exchange& x) noexcept {
+    const Settings* const stored = port::stored();
+    x.has_stored = stored != nullptr ? 1 : 0;
+    if (stored == nullptr) return;
+    x.settings = *stored;
+    start_by(x);
+}
+
 void answer(Exchange& x) noexcept {
     switch (x.request) {
         case Request::none:
             break;
         case Request::start:
             start_by(x);
+            break;
+        case Request::start_stored:
+            start_stored(x);
             break;
         case Request::half:
             pend_irq(half_timer_irq);

@@ -1,49 +1,40 @@
-// Settings in the flash, with what tells whether they are whole and of this program.
+// Settings in the flash: those that the gyro starts with, and beside them those that come over the line.
+//
+// Plain writes, as the flash of this machine takes them. They take longer than a half-period: the interrupts go on, and
+// the memory protection lets this part of the flash be written.
 
+#include <algorithm>
 #include <array>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
-#include <type_traits>
 
-#include <zlg/firmware/exchange.hpp>
 #include <zlg/firmware/port.hpp>
-#include <zlg/wire/crc.hpp>
+#include <zlg/firmware/stored.hpp>
 
 namespace zlg::firmware::port {
 namespace {
 
-struct Stored {
-    std::uint64_t layout;
-    Settings settings;
-    std::uint32_t crc;  // of the settings, as they lie in memory
-};
-static_assert(std::is_trivially_copyable_v<Stored>);
+constexpr std::size_t place_bytes = 8192;
+static_assert(stored_bytes <= place_bytes);
 
 // Bytes, for no constructor may run here: it would put the defaults over what is stored.
-alignas(Stored) [[gnu::section(".stored")]] constinit std::array<std::byte, sizeof(Stored)> memory{};
+alignas(Settings) [[gnu::section(".stored")]] constinit std::array<std::uint8_t, 2 * place_bytes> memory{};
 
-Stored& flash() noexcept { return *reinterpret_cast<Stored*>(memory.data()); }
-
-std::uint32_t crc_of(const Settings& settings) noexcept {
-    return wire::crc32c({reinterpret_cast<const std::uint8_t*>(&settings), sizeof settings});
-}
+std::span<std::uint8_t> in_force() noexcept { return std::span{memory}.first(stored_bytes); }
 
 }  // namespace
 
-// It takes longer than a half-period: the interrupts go on, and the memory protection lets this part of the flash be
-// written.
-void store(const Settings& settings) noexcept {
-    Stored& to = flash();
-    std::memcpy(&to.settings, &settings, sizeof settings);
-    to.crc = crc_of(settings);
-    to.layout = layout();
-}
+void store(const Settings& settings) noexcept { put_stored(settings, in_force().first<stored_bytes>()); }
 
 const Settings* stored() noexcept {
-    const Stored& from = flash();
-    const bool is_whole = from.layout == layout() && from.crc == crc_of(from.settings);
-    return is_whole && check(from.settings) == SettingsFault{} ? &from.settings : nullptr;
+    return fault_of(in_force()) == StoredFault::none ? &settings_in(in_force()) : nullptr;
 }
+
+bool stage(std::size_t offset, std::span<const std::uint8_t> bytes) noexcept {
+    if (offset > place_bytes || bytes.size() > place_bytes - offset) return false;
+    std::copy(bytes.begin(), bytes.end(), memory.begin() + place_bytes + offset);
+    return true;
+}
+
+std::span<const std::uint8_t> staged() noexcept { return std::span{memory}.last(place_bytes); }
 
 }  // namespace zlg::firmware::port

@@ -23,6 +23,9 @@ using firmware::Request;
 // Of the machine's memory that the exchange lies in; the machine insists on this size.
 constexpr std::size_t machine_memory = 16u << 20;
 
+// Where the image keeps its settings.
+constexpr unsigned stored_address = 0x3c000;
+
 std::vector<std::string> command_line(const QemuOptions& options, int memory_fd, int bell_fd) {
     std::vector<std::string> words{
         options.program,
@@ -46,6 +49,10 @@ std::vector<std::string> command_line(const QemuOptions& options, int memory_fd,
         "chardev:bell",
         "-kernel",
         options.image};
+    if (!options.stored.empty()) {
+        words.emplace_back("-device");
+        words.push_back(fmt::format("loader,file={},addr={:#x},force-raw=on", options.stored, stored_address));
+    }
     if (options.counts_instructions)
         for (const char* word : {"-icount", "shift=6,sleep=off"}) words.emplace_back(word);
     return words;
@@ -155,10 +162,20 @@ QemuProcessor::~QemuProcessor() = default;
 
 core::ActuatorFrame QemuProcessor::start(const rig::ProcessorSettings& settings) {
     link_->exchange().settings = {settings.control, settings.compensation};
+    return begin(Request::start);
+}
+
+core::ActuatorFrame QemuProcessor::start_stored() {
+    const core::ActuatorFrame first = begin(Request::start_stored);
+    if (link_->exchange().has_stored == 0) throw QemuError{"the image finds no settings in its flash"};
+    return first;
+}
+
+core::ActuatorFrame QemuProcessor::begin(Request request) {
     link_->exchange().counter = 0;
     link_->exchange().pulse = {};
     first_ticks_.reset();
-    const Exchange& answer = link_->ask(Request::start);
+    const Exchange& answer = link_->ask(request);
     if (answer.fault != firmware::SettingsFault{})
         throw QemuError{fmt::format("the image refuses its settings: control {}, compensation {}",
                                     static_cast<int>(answer.fault.control),

@@ -18,10 +18,11 @@ namespace zlg::firmware {
 
 enum class Request : std::uint32_t {
     none,
-    start,  // judge the settings, begin anew
-    half,   // one half-period
-    drain,  // one report of what is still due
-    state   // lay open the state
+    start,         // judge the settings, begin anew
+    start_stored,  // the same with those that the flash holds
+    half,          // one half-period
+    drain,         // one report of what is still due
+    state          // lay open the state
 };
 
 // What the processor says of itself before the first request.
@@ -56,6 +57,7 @@ struct Exchange {
     Pulse pulse{};
 
     // Processor to host.
+    std::uint32_t has_stored = 0;
     SettingsFault fault{};
     core::ActuatorFrame first_actuator{};
     HalfOutput output{};

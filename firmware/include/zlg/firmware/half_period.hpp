@@ -25,7 +25,8 @@ core::ActuatorFrame start_gyro(const Settings& settings, std::optional<std::uint
 //                      tick.
 [[nodiscard]] bool try_change_settings(const Settings& settings) noexcept;
 void hold_switching(bool held) noexcept;
-void force_switch() noexcept;  // once, as soon as the gyro is ready for it
+void force_switch() noexcept;                // once, as soon as the gyro is ready for it
+[[nodiscard]] bool is_switching() noexcept;  // from the opening of the loop to the lock, or until the mode is searched
 [[nodiscard]] wire::Status status_of_gyro(const core::GyroCompensationConfig& config) noexcept;
 
 // The outputs of the last half, for telemetry; consistent while the interrupt is masked.

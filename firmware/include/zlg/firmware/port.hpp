@@ -46,6 +46,16 @@ std::size_t receive(std::span<std::uint8_t> bytes) noexcept;
 void store(const Settings& settings) noexcept;
 [[nodiscard]] const Settings* stored() noexcept;
 
+// The same memory has a second place, for settings that come in pieces: nothing starts with what is there.
+//
+// stage   false, and nothing is written, where the place ends before the piece does.
+// staged  the whole place.
+[[nodiscard]] bool stage(std::size_t offset, std::span<const std::uint8_t> bytes) noexcept;
+[[nodiscard]] std::span<const std::uint8_t> staged() noexcept;
+
+// Begin anew, with what is stored, once what was given to `send` is out.
+[[noreturn]] void restart() noexcept;
+
 // Without a call for a quarter of a second the board notes why and begins anew. To be called by the background, and
 // only when a half-period has ended since the last call: so it shows that both are alive.
 void kick_watchdog() noexcept;

@@ -20,7 +20,9 @@ public:
     // byte.
     //
     // errors  SourceError: a speed that no serial device has, a malformed address; IoError: it cannot be opened.
-    ByteSource(const std::string& source, int baud);
+    // access  `both`: bytes are also sent, which a file and standard input cannot take.
+    enum class Access { read, both };
+    ByteSource(const std::string& source, int baud, Access access = Access::read);
     ~ByteSource();
     ByteSource(const ByteSource&) = delete;
     ByteSource& operator=(const ByteSource&) = delete;
@@ -31,6 +33,11 @@ public:
     //
     // errors  IoError.
     [[nodiscard]] Read read(std::span<std::uint8_t> buffer, std::size_t& n, int patience_ms);
+
+    // Send all of them.
+    //
+    // errors  IoError, also where the other end has taken nothing for two seconds.
+    void write(std::span<const std::uint8_t> bytes);
 
 private:
     std::string name_;

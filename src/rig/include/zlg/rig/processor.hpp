@@ -1,6 +1,7 @@
 #pragma once
 // A gyro's processor that is not this program: it runs the core somewhere else, in lock step with the twin.
 
+#include <zlg/config/config.hpp>
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
 
@@ -15,6 +16,12 @@ struct ProcessorHalf {
     core::GyroControlOutput control{};
     core::CompensationOutput compensation{};
 };
+
+// What a processor runs by that is the gyro of this configuration: where its schedule asks for measurements, with the
+// magnetic drift at least watched.
+//
+// errors  config::ConfigError.
+[[nodiscard]] ProcessorSettings processor_settings(const config::Config& config);
 
 class Processor {
 public:

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <zlg/wire/frame.hpp>
 
@@ -20,6 +21,7 @@ enum class CommandCode : std::uint8_t {
     force_switch = 4,     // at the next tick border at which the gyro is ready, also while switching is stopped
     read_parameters = 5,  // of the keys given
     set_parameters = 6,   // all of the keys given, or none of them
+    load = 7,             // a piece of stored settings (SettingsPiece)
 };
 
 inline constexpr std::size_t max_parameters = 16;
@@ -45,6 +47,14 @@ struct Command {
     friend bool operator==(const Command&, const Command&) = default;
 };
 
+// Of code `load`: some bytes of settings as they are stored, or none, which ends them.
+struct SettingsPiece {
+    std::uint16_t offset = 0;               // of the first byte; of the piece without any: how many there are
+    std::span<const std::uint8_t> bytes{};  // up to max_piece_bytes; good as long as the message that it came in
+};
+
+inline constexpr std::size_t max_piece_bytes = 224;
+
 enum class CommandResult : std::uint8_t {
     done = 0,
     malformed = 1,    // no command of a known code and the right length
@@ -52,7 +62,10 @@ enum class CommandResult : std::uint8_t {
     read_only = 3,    // `key` can be changed only where the image is built
     not_a_value = 4,  // of `key`: not finite, or no whole number where one is needed
     not_allowed =
-        5,  // the core refuses; `key` alone, or 0 where only several together do. `part` and `fault` say where
+        5,        // the core refuses; `key` alone, or 0 where only several together do. `part` and `fault` say where
+    damaged = 6,  // the pieces are no whole settings
+    other_program = 7,     // they are of sources of another version
+    switch_under_way = 8,  // nothing is loaded meanwhile
 };
 
 enum class RefusingPart : std::uint8_t { none = 0, control = 1, compensation = 2 };
@@ -71,10 +84,12 @@ struct Reply {
 };
 
 [[nodiscard]] Frame frame_of(Sender& sender, const Command& command) noexcept;
+[[nodiscard]] Frame frame_of(Sender& sender, const SettingsPiece& piece) noexcept;
 [[nodiscard]] Frame frame_of(Sender& sender, const Reply& reply) noexcept;
 
 // Nothing where the message is of another type, length or code.
 [[nodiscard]] std::optional<Command> command_in(const Message& message) noexcept;
+[[nodiscard]] std::optional<SettingsPiece> piece_in(const Message& message) noexcept;
 [[nodiscard]] std::optional<Reply> reply_in(const Message& message) noexcept;
 
 }  // namespace zlg::wire

@@ -19,6 +19,7 @@ struct CommandEffect {
     bool start_switching = false;   // held = false
     bool force_switch = false;      // asked = true
     bool send_status = false;       // now, after the reply
+    bool load = false;  // take the piece in the message, and put what came of it into the reply and into `last`
 
     friend bool operator==(const CommandEffect&, const CommandEffect&) = default;
 };

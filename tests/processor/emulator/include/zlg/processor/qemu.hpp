@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <zlg/firmware/exchange.hpp>
 #include <zlg/firmware/gyro.hpp>
 #include <zlg/rig/processor.hpp>
 
@@ -17,6 +18,7 @@ struct QemuOptions {
     std::string program = "qemu-system-arm";  // by its path, or by its name in PATH
     int timeout_ms = 20'000;                  // longest time without an answer, the start included; 1 or more
     std::string line = "null";  // where the serial line of telemetry and commands leads, as the emulator names it
+    std::string stored;         // a file of stored settings that lie in its flash; none: nothing is stored
     bool counts_instructions = false;  // a tick of the processor's timers is then a fixed number of them; slower
 };
 
@@ -33,6 +35,8 @@ public:
     ~QemuProcessor() override;
 
     core::ActuatorFrame start(const rig::ProcessorSettings& settings) override;
+    // The same with the settings in its flash.
+    core::ActuatorFrame start_stored();
     rig::ProcessorHalf half(const core::SensorFrame& frame) override;
     core::DrainOutput drain() override;
 
@@ -45,6 +49,7 @@ public:
 private:
     class Link;
 
+    core::ActuatorFrame begin(firmware::Request request);
     void give_pulse(std::uint64_t now_ticks);
 
     std::unique_ptr<Link> link_;
