@@ -85,7 +85,7 @@ void check_discriminator(const Perimeter& p) {
 
 void check_dither(const Config& config) {
     const Gyro& gyro = config.gyro;
-    if (gyro.dither == core::DitherMethod::none || gyro.fidelity != Fidelity::averaged) return;
+    if (gyro.dither == core::DitherMethod::none || gyro.fidelity == Fidelity::laser) return;
     throw ConfigError(fmt::format(
         "gyro.dither = {}: the averaged gyro reverses its bias evenly; allowed is gyro.fidelity = \"laser\"",
         value_text(*find_key("gyro", "dither"), config)));

@@ -15,7 +15,7 @@ using C = Config;
 // place.
 constexpr std::array<std::string_view, 3> loops{"analog", "exponential", "digital"};
 constexpr std::array<std::string_view, 4> dithers{"none", "auto", "paired", "random"};
-constexpr std::array<std::string_view, 2> fidelities{"averaged", "laser"};
+constexpr std::array<std::string_view, 3> fidelities{"averaged", "laser", "events"};
 constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
 constexpr std::array<std::string_view, 2> readouts{"count", "phase"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
@@ -57,7 +57,7 @@ const Key table[] = {
     {"run", "seed", "", "seed of all random numbers; the same seed gives the same run",
      integer<&C::run, &Run::seed>(0, int64_max)},
 
-    {"gyro", "fidelity", "", "physics of a simulated gyro: given by [gyro] and [drift], or derived from [laser]",
+    {"gyro", "fidelity", "", "physics of a simulated gyro: given by [gyro] and [drift], derived from [laser], or the first with leaps from event to event",
      choice<&C::gyro, &Gyro::fidelity>(fidelities)},
     {"gyro", "tick_s", "s", "length of a tick: two half-periods of the bias",
      Real{at<&C::gyro, &Gyro::tick_s>, {.min = 1e-6, .max = 10.0}}},

@@ -1,7 +1,9 @@
 #include <zlg/rig/closed_loop.hpp>
 
+#include <algorithm>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -45,6 +47,20 @@ core::GyroCompensationConfig adviser_config(const config::Config& config) {
     return asked_compensation(watching);
 }
 
+std::optional<LeapPlan> plan_of(const config::Config& config, const twin::Motion& motion) {
+    if (config.gyro.fidelity != config::Fidelity::events || !why_lived(config, motion).empty()) return {};
+    return leap_plan(config, adviser_config(config), motion);
+}
+
+// A stretch between two events is leapt over in so many parts: points of the error in time.
+constexpr std::int64_t parts_of_a_stretch = 16;
+// Shorter ones are lived; ticks that are told one by one come so many at a time.
+constexpr std::int64_t least_ticks = 16;
+constexpr std::int64_t most_single_ticks = 1024;
+
+// Times of forgetting in which the motion is learnt before the first event: .95 of what can be.
+constexpr std::int64_t first_lessons = 3;
+
 }  // namespace
 
 ProcessorSettings processor_settings(const config::Config& config) {
@@ -53,6 +69,7 @@ ProcessorSettings processor_settings(const config::Config& config) {
 
 ClosedLoop::ClosedLoop(const config::Config& config, twin::Motion motion, Processor* processor)
     : config_{config},
+      plan_{processor ? std::nullopt : plan_of(config, motion)},
       twin_{make_twin(config, std::move(motion))},
       control_config_{control_config(config)},
       control_state_{initial_state(control_config_)},
@@ -76,7 +93,41 @@ LoopHalf ClosedLoop::advance() {
     out.record = out.control.record;
     out.truth = half.truth;
     actuator_ = out.control.actuator;
+    last_ = out.record;
+    piece_ticks_ = 0;
     return out;
+}
+
+std::int64_t ClosedLoop::quiet_ticks(std::int64_t most_halves) {
+    if (!plan_ || !is_quiet(*plan_, control_state_)) return 0;
+    const std::int64_t tick = control_state_.half / 2;
+    const std::int64_t opens = next_opening(control_config_.schedule, control_state_.schedule, tick, last_.mode);
+    const std::int64_t event = std::min(opens - tick, twin_.quiet_halves() / 2);
+    return std::min(event - plan_->before_ticks, most_halves / 2);
+}
+
+std::optional<Leap> ClosedLoop::leap(std::int64_t most_halves) {
+    std::int64_t ticks = quiet_ticks(most_halves);
+    if (ticks < least_ticks) return {};
+    if (piece_ticks_ == 0) {
+        piece_ticks_ = ticks / parts_of_a_stretch + 1;
+        learn_ticks_ = has_leapt_ ? plan_->learn_ticks : first_lessons * plan_->learn_ticks;
+        has_leapt_ = true;
+    }
+    const bool singly = plan_->all_singly || ticks <= learn_ticks_;
+    ticks = std::min(singly ? std::min(ticks, most_single_ticks) : ticks - learn_ticks_,
+                     std::max(piece_ticks_, least_ticks));
+    const core::PiezoRange& range = control_config_.loop.range;
+    // The warming moves the piezo in one direction: where it ends, it is nearest to an end of the range.
+    while (ticks > 0 && near_end(range, core::Volts{twin_.voltage_after(2 * ticks)})) ticks /= 2;
+    if (ticks < least_ticks) return {};
+    const Leap made = leap_of(twin_.leap(2 * ticks, singly), last_);
+    rig::leap(control_config_, control_state_, made);
+    if (adviser_) adviser_->leap(made);
+    for (double& v : actuator_.set_point_v) v += made.set_point_v;
+    last_.temperature_c = made.temperature_c;
+    if (made.has_place) last_.fringe = static_cast<float>(made.end_parts);
+    return made;
 }
 
 LoopHalf ClosedLoop::step_here() {

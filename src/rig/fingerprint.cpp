@@ -125,6 +125,18 @@ void Fingerprint::take(const LoopHalf& half, const core::SensorFrame& sensor) {
     n_last_half_ = bytes.size();
 }
 
+void Fingerprint::take(const Leap& leap) {
+    before_last_ = halves();
+    Bytes bytes{last_half_};
+    bytes.whole(leap.halves);
+    bytes.whole(leap.counts);
+    bytes.whole(leap.parts);
+    for (const double x : {leap.dtheta_arcsec, leap.turned_counts, leap.rounding_arcsec, leap.set_point_v,
+                           leap.temperature_c, leap.light_ratio, leap.balance_ratio, leap.bias_ratio})
+        bytes.real(x);
+    n_last_half_ = bytes.size();
+}
+
 void Fingerprint::take(const core::AngleRow& row) {
     std::array<unsigned char, 48> room;
     Bytes bytes{room};

@@ -34,6 +34,12 @@ void MeteredCompensation::take(const rig::LoopHalf& half, core::LightSamples lig
     is_second_ = !is_second_;
 }
 
+void MeteredCompensation::leap(const rig::Leap& leap) {
+    const double arcsec = replay_.leap(leap, [this](const core::AngleRow& row) { take(row); });
+    meter_.leap(leap.ticks(), arcsec - leap.dtheta_arcsec);
+    tick_ += leap.ticks();
+}
+
 const ErrorMeter& MeteredCompensation::end() {
     replay_.end([this](const core::AngleRow& row) { take(row); }, [this](const core::GapReport& gap) { take(gap); });
     return meter_;
@@ -52,9 +58,15 @@ void MeteredCompensation::take(const core::GapReport& gap) const {
 ErrorMeter compensated_run(const config::Config& config, std::int64_t ticks, std::int64_t stride) {
     rig::ClosedLoop loop{config, recorded::motion(config)};
     MeteredCompensation compensation{config, stride};
-    for (std::int64_t half = 0; half < 2 * ticks; ++half) {
+    for (std::int64_t half = 0; half < 2 * ticks;) {
+        if (const auto leap = half % 2 == 0 ? loop.leap(2 * ticks - half) : std::nullopt) {
+            compensation.leap(*leap);
+            half += leap->halves;
+            continue;
+        }
         const rig::LoopHalf now = loop.advance();
         compensation.take(now, loop.light());
+        ++half;
     }
     return compensation.end();
 }

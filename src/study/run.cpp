@@ -46,7 +46,8 @@ public:
         : task_{task},
           count_{task.config},
           variants_{variants(task.config, curve_stride(task, ticks), task.variants)},
-          switches_{task.config.compensation.relock_ticks} {}
+          switches_{task.config.compensation.relock_ticks},
+          fingerprint_{task.config.gyro.fidelity == config::Fidelity::events} {}
 
     // The first half of a tick, while its frame and its light are there.
     void first_half(const rig::LoopHalf& first, const core::SensorFrame& sensor, const core::LightSamples& light) {
@@ -74,6 +75,14 @@ public:
             rig::hand_over(
                 stepped(v, tick, second, light_second), [&](const core::AngleRow& row) { take_row(v, row); },
                 [&](const core::GapReport& gap) { take_gap(v, gap); });
+        }
+    }
+
+    void leap(const rig::Leap& leap) {
+        fingerprint_.take(leap);
+        for (Variant& v : variants_) {
+            const double arcsec = v.replay.leap(leap, [&](const core::AngleRow& row) { take_row(v, row); });
+            v.meter.leap(leap.ticks(), arcsec - leap.dtheta_arcsec);
         }
     }
 
@@ -249,6 +258,12 @@ VariantResult one_mode(const RunTask& task, const twin::Motion& motion, std::int
         variant.meter.take(row, {truth[static_cast<std::size_t>(row.tick) % truth.size()], 0.0}, no_windows);
     };
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
+        if (const auto leap = loop.leap(2 * (ticks - tick))) {
+            const double arcsec = variant.replay.leap(*leap, take);
+            variant.meter.leap(leap->ticks(), arcsec - leap->dtheta_arcsec);
+            tick += leap->ticks() - 1;
+            continue;
+        }
         const rig::LoopHalf first = loop.advance();
         const rig::LoopHalf second = loop.advance();
         truth[static_cast<std::size_t>(tick) % truth.size()] = first.truth.dtheta_arcsec + second.truth.dtheta_arcsec;
@@ -271,6 +286,11 @@ void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t
     // About two hundred reports, and one every 100 000 ticks at least.
     const std::int64_t progress_stride = std::clamp<std::int64_t>(ticks / 200, 1, 100'000);
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
+        if (const auto leap = loop.leap(2 * (ticks - tick))) {
+            experiment.leap(*leap);
+            tick += leap->ticks() - 1;
+            continue;
+        }
         const rig::LoopHalf first = advance(loop, task);
         experiment.first_half(first, loop.sensor(), loop.light());
         const rig::LoopHalf second = advance(loop, task);

@@ -42,7 +42,7 @@ std::int64_t trial_ticks(const config::Config& config) {
     return static_cast<std::int64_t>(std::min(ticks, max_ticks));
 }
 
-bool phase_is_known(const config::Config& config) { return config.gyro.fidelity == config::Fidelity::averaged; }
+bool phase_is_known(const config::Config& config) { return config.gyro.fidelity != config::Fidelity::laser; }
 
 // What stays in the angle for ever, where the roundings of the counter are not known and the errors of the meter hold
 // that of the last tick: the step between the means before the gap and after the re-lock.

@@ -31,6 +31,20 @@ void Drift::add(double t_s, double error_arcsec) {
     te_ += dt * (error_arcsec - mean_e_);
 }
 
+// Sums of squares of two sets about their common means (Chan, Golub and LeVeque, 1979).
+void Drift::add(double n, double step_s, double t_s, double from_arcsec, double error_arcsec) {
+    const double step_arcsec = (error_arcsec - from_arcsec) / n;
+    const double own = n * (n * n - 1.0) / 12.0;
+    const double dt = t_s - 0.5 * (n - 1.0) * step_s - mean_t_;
+    const double de = error_arcsec - 0.5 * (n - 1.0) * step_arcsec - mean_e_;
+    const double part = n / (n_ + n);
+    tt_ += own * step_s * step_s + dt * dt * n_ * part;
+    te_ += own * step_s * step_arcsec + dt * de * n_ * part;
+    mean_t_ += dt * part;
+    mean_e_ += de * part;
+    n_ += n;
+}
+
 double Drift::slope_arcsec_s() const { return tt_ > 0.0 ? te_ / tt_ : 0.0; }
 
 double ErrorMeter::drift_arcsec(const core::AngleRow& row, const TickTruth& truth, const SwitchWindow& window) const {
@@ -67,6 +81,20 @@ void ErrorMeter::take(const core::AngleRow& row, const TickTruth& truth, const s
         }
     }
     rounding_before_arcsec_ = truth.rounding_arcsec;
+}
+
+void ErrorMeter::leap(std::int64_t ticks, double error_arcsec) {
+    const double from_arcsec = error_.value();
+    const std::int64_t first = n_ticks_;
+    error_.add(error_arcsec);
+    n_ticks_ += ticks;
+    const double end_s = static_cast<double>(n_ticks_) * tick_s_;
+    drift_.add(static_cast<double>(ticks), tick_s_, end_s, from_arcsec, error_.value());
+    for (std::int64_t at = (first / stride_ + 1) * stride_; at <= n_ticks_; at += stride_) {
+        curve_.t_s.push_back(static_cast<double>(at) * tick_s_);
+        curve_.error_arcsec.push_back(from_arcsec +
+                                      error_arcsec * static_cast<double>(at - first) / static_cast<double>(ticks));
+    }
 }
 
 }  // namespace zlg::study

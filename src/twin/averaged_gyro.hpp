@@ -21,7 +21,14 @@ public:
 
     const TwinHalf& advance(const core::ActuatorFrame& actuator) override;
 
+    std::int64_t quiet_halves() override;
+    double voltage_after(std::int64_t halves) override { return housing_.voltage_after(halves); }
+    Leap leap(std::int64_t halves, bool singly) override;
+
 private:
+    struct Drifts;
+    void pass_singly(const Drifts& drifts, Leap& made);
+    void pass_over(const Drifts& drifts, Leap& made);
     [[nodiscard]] bool is_lit_in_one_mode() const;  // throughout the half
     void take_light(int bias_sign, bool is_steady, core::SensorFrame& sensor);
     BiasArea bias_area(bool is_steady, TwinTruth& truth);

@@ -22,6 +22,9 @@ public:
         return config_.power_decay_per_h == 0.0 ? 1.0 : core::maths::exp(-config_.power_decay_per_h * hours(time_s));
     }
 
+    // Of beam B over that of A, by the drift of the gain alone.
+    [[nodiscard]] double gain_growth(double time_s) const { return 1.0 + config_.gain_drift_per_h * hours(time_s); }
+
     // The samples of a half around this time. No photodiode shows less than none.
     void see(double time_s, core::SensorFrame& sensor) const {
         const double gain_a = power(time_s);

@@ -23,6 +23,12 @@ public:
         return shown_;
     }
 
+    // Follow it over halves in which no fringe is lost.
+    void skip(std::uint64_t counter) {
+        shown_ += counter - ideal_;
+        ideal_ = counter;
+    }
+
 private:
     double max_hz_;
     std::uint64_t ideal_ = 0;

@@ -89,12 +89,13 @@ double Housing::drift_lambda(double warming, double shock_c) const {
            config_.perimeter.expansion_lambda_per_c * shock_c;
 }
 
-double Housing::half_wave_v() const {
-    const double above_reference_c = config_.gyro.temperature_rise_c * warming_end_ + shock_end_c_;
-    const double own_v =
-        config_.piezo.half_wave_v * (1.0 + config_.piezo.half_wave_temperature_coefficient_per_c * above_reference_c);
-    return own_v * half_wave_ratio(faults_.active(), start_s());
+double Housing::half_wave_v(double warming) const {
+    const double above_reference_c = config_.gyro.temperature_rise_c * warming + shock_end_c_;
+    return config_.piezo.half_wave_v *
+           (1.0 + config_.piezo.half_wave_temperature_coefficient_per_c * above_reference_c);
 }
+
+double Housing::half_wave_ratio_now() const { return half_wave_ratio(faults_.active(), start_s()); }
 
 int Housing::bias_sign() const {
     return index_ % 2 == 0 ? config_.gyro.first_bias_sign : -config_.gyro.first_bias_sign;
@@ -179,8 +180,29 @@ void Housing::read_slow(core::SensorFrame& sensor, double perimeter_v) {
     sensor.piezo_v = adc_.quantised_v(perimeter_v + noise_v);
     const double noise_a = config_.coil_noise_a > 0.0 ? config_.coil_noise_a * coil_noise_.gauss(index_) : 0.0;
     sensor.coil_current_a = coil_adc_.quantised_v(sensor.bias_sign * coil_plateau_a * coil_ratio() + noise_a);
-    sensor.temperature_c =
-        config_.gyro.reference_temperature_c + config_.gyro.temperature_rise_c * warming_end_ + shock_end_c_;
+    sensor.temperature_c = temperature_c();
+}
+
+double Housing::temperature_c() const {
+    return config_.gyro.reference_temperature_c + config_.gyro.temperature_rise_c * warming_end_ + shock_end_c_;
+}
+
+double Housing::leap(std::int64_t halves) {
+    index_ += static_cast<std::uint64_t>(halves);
+    warming_start_ = warming_end_ = warming_.at(index_);
+    return perimeter_.leap(halves, drift_lambda(warming_end_, shock_end_c_) + faults_.settled_lambda(),
+                           half_wave_v(warming_end_));
+}
+
+std::int64_t Housing::halves_without_fault() const {
+    if (!faults_.active().empty()) return 0;
+    return static_cast<std::int64_t>(std::clamp((faults_.next_s() - start_s()) / half_s_, 0.0, 0x1p53));
+}
+
+double Housing::voltage_after(std::int64_t halves) {
+    const double warming = warming_.at(index_ + static_cast<std::uint64_t>(halves));
+    return perimeter_.voltage_after(drift_lambda(warming, shock_end_c_) + faults_.settled_lambda(),
+                                    half_wave_v(warming));
 }
 
 }  // namespace zlg::twin

@@ -41,6 +41,20 @@ public:
 
     Perimeter& perimeter() { return perimeter_; }
 
+    // Leap over so many halves; what the counter shows after them, of an ideal one. No fault acts in them.
+    //
+    // return  of the set-points of a digital loop, V.
+    double leap(std::int64_t halves);
+    void count_on(std::uint64_t counter) { counter_limit_.skip(counter); }
+    // Halves from here on in which no fault acts.
+    [[nodiscard]] std::int64_t halves_without_fault() const;
+    // Of the piezo, when so many halves have passed.
+    [[nodiscard]] double voltage_after(std::int64_t halves);
+    [[nodiscard]] double temperature_c() const;
+    // Of the light of beam A, and of B over A, now over those at a time.
+    [[nodiscard]] const BeamPhotodiodes& photodiodes() const { return photodiodes_; }
+    [[nodiscard]] double warming() const { return warming_end_; }
+
     [[nodiscard]] double half_s() const { return half_s_; }
     [[nodiscard]] int n_pieces() const { return n_pieces_; }  // of one light-sample interval
     // Of the half entered, or if none is, of the next.
@@ -62,7 +76,9 @@ public:
 
 private:
     [[nodiscard]] double drift_lambda(double warming, double shock_c) const;
-    [[nodiscard]] double half_wave_v() const;
+    [[nodiscard]] double half_wave_v() const { return half_wave_v(warming_end_) * half_wave_ratio_now(); }
+    [[nodiscard]] double half_wave_v(double warming) const;
+    [[nodiscard]] double half_wave_ratio_now() const;
     [[nodiscard]] double coil_ratio() const;  // of its current over its own
     void enter_faults();
     void read_slow(core::SensorFrame& sensor, double perimeter_v);

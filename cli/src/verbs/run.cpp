@@ -11,6 +11,7 @@
 #include <zlg/core/health.hpp>
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/raw_log.hpp>
+#include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/run.hpp>
 #include <zlg/study/run_page.hpp>
@@ -153,6 +154,9 @@ void run(const RunOptions& options) {
     const KeptLogs kept = kept_logs(options);
     const study::Resolved resolved = resolve(load_config(options));
     const config::Config& config = resolved.config;
+    if (kept != KeptLogs::none)
+        rig::require_every_half(config, fmt::format("a log (--logs {})", options.logs),
+                                "allowed is --logs none, which leaves switches.csv, or gyro.fidelity = \"averaged\"");
     const std::string lab = asked_lab_page(options, config);
     const int light_samples = logged_light_samples(options, config, format);
     // How long a motion file is shows only when it is read.

@@ -13,6 +13,7 @@
 #include <zlg/logs/unfinished.hpp>
 #include <zlg/recorded/motion.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/refusal.hpp>
 #include <zlg/rig/switch_count.hpp>
 #include <zlg/rig/wire_stream.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -86,6 +87,7 @@ void simulate(const SimulateOptions& options) {
         std::filesystem::path{options.wire}.lexically_normal() == std::filesystem::path{options.out}.lexically_normal())
         throw UsageError{fmt::format("--wire {}: is the raw log; name another file", options.wire)};
     const config::Config config = resolve(load_config(options)).config;
+    rig::require_every_half(config, "a raw log", "allowed is gyro.fidelity = \"averaged\" or \"laser\"");
     const int light_samples = logged_light_samples(options, config, format);
     const twin::Motion motion = recorded::motion(config);
     const std::int64_t ticks = rig::run_ticks(config, motion);

@@ -144,6 +144,26 @@ double contradiction(const MagneticDriftConfig& c, const MagneticDriftState& s) 
     return beyond > 0.0 ? beyond / ((far_sq - near_sq) * variance) : 0.0;
 }
 
+// A prediction, and how far it is trusted.
+void renew(const MagneticDriftConfig& config, MagneticDriftState& state, double tick_s) noexcept {
+    predict(config, state, tick_s);
+    const double unknown = known_sq * drift_variance(state) / square(state.estimate[of_drift]);
+    const double trust = 1.0 - unknown - contradiction(config, state);
+    state.trust = trust > 0.0 ? trust : 0.0;
+}
+
+// What is subtracted in so many ticks between two predictions: what is due above the drift of a tick falls by the gain
+// from tick to tick.
+double subtract(MagneticDriftState& s, double tick_s, std::int32_t ticks) noexcept {
+    const double rate = s.mode * s.estimate[of_drift], now = s.trust * tick_s * rate;
+    const double angle = s.estimate[of_angle] + s.pending_ticks * tick_s * rate;
+    const double lacking = s.trust * angle - now - s.subtracted_arcsec;
+    const double part = -maths::expm1(ticks * maths::log(1.0 - past_correction_gain));
+    const double due = ticks * now + lacking * part;
+    s.subtracted_arcsec += due;
+    return due;
+}
+
 }  // namespace
 
 bool is_allowed(const MagneticDriftConfig& c) noexcept {
@@ -166,12 +186,7 @@ double step(const CompensationConstants& gyro, const MagneticDriftConfig& config
         state.segment = {};
         state.mode = mode;
     }
-    if (++state.pending_ticks >= block_ticks || ends) {
-        predict(config, state, tick_s);
-        const double unknown = known_sq * drift_variance(state) / square(state.estimate[of_drift]);
-        const double trust = 1.0 - unknown - contradiction(config, state);
-        state.trust = trust > 0.0 ? trust : 0.0;
-    }
+    if (++state.pending_ticks >= block_ticks || ends) renew(config, state, tick_s);
     if (mode == 0) return 0.0;
     accumulate(state.segment, tick.angle_arcsec);
     if (config.method != MagneticMethod::estimate) return 0.0;
@@ -181,6 +196,24 @@ double step(const CompensationConstants& gyro, const MagneticDriftConfig& config
     const double due = now + past_correction_gain * (state.trust * angle - now - state.subtracted_arcsec);
     state.subtracted_arcsec += due;
     return due;
+}
+
+double leap(const CompensationConstants& gyro, const MagneticDriftConfig& config, MagneticDriftState& state,
+            std::int64_t ticks, double angle_arcsec) noexcept {
+    const double tick_s = gyro.tick.value();
+    double subtracted = 0.0;
+    // As `step`, a tick that completes a block is subtracted by what is renewed in it.
+    for (std::int64_t left = ticks; left > 0;) {
+        ++state.pending_ticks;
+        if (state.pending_ticks >= block_ticks) renew(config, state, tick_s);
+        const std::int64_t to_block = block_ticks - state.pending_ticks;
+        const auto part = static_cast<std::int32_t>(left < to_block ? left : to_block);
+        if (config.method == MagneticMethod::estimate) subtracted += subtract(state, tick_s, part);
+        state.pending_ticks += part - 1;
+        left -= part;
+    }
+    accumulate(state.segment, angle_arcsec, ticks);
+    return subtracted;
 }
 
 double drift_variance(const MagneticDriftState& s) noexcept {

@@ -2,6 +2,7 @@
 // The faults of a run, in time: which of them act in the present half.
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,11 @@ public:
 
     // Enter the half from start_s to end_s; never an earlier one than before.
     void enter(double start_s, double end_s);
+
+    // When the next one begins; infinite after the last.
+    [[nodiscard]] double next_s() const {
+        return next_ < faults_.size() ? faults_[next_].at_s : std::numeric_limits<double>::infinity();
+    }
 
     // Those that have begun by the end of the half and were not over at its start.
     [[nodiscard]] std::span<const Fault> active() const { return active_; }

@@ -26,4 +26,8 @@ double Motion::increment_arcsec(double t0_s, double t1_s) const { return source_
 
 double Motion::duration_s() const { return source_->duration_s(); }
 
+double Motion::fastest_arcsec_s() const { return source_->fastest_arcsec_s(); }
+
+bool Motion::is_even() const { return source_->is_even(); }
+
 }  // namespace zlg::twin

@@ -43,6 +43,13 @@ public:
 
     [[nodiscard]] double duration_s() const override { return static_cast<double>(increment_.size()) / rate_hz_; }
 
+    // The slope of the cubic between two rows is at most twice that of the steeper one.
+    [[nodiscard]] double fastest_arcsec_s() const override {
+        double most = 0.0;
+        for (const double increment : increment_) most = std::max(most, std::abs(increment));
+        return 2.0 * most * rate_hz_;
+    }
+
 private:
     struct Place {
         std::size_t row;

@@ -55,6 +55,14 @@ public:
         return sum;
     }
 
+    [[nodiscard]] double fastest_arcsec_s() const override {
+        double sum = std::abs(rate_arcsec_s_);
+        for (const Wave& wave : waves_) sum += std::abs(wave.amplitude_arcsec_s);
+        return sum;
+    }
+
+    [[nodiscard]] bool is_even() const override { return waves_.empty(); }
+
 private:
     struct Wave {
         double amplitude_arcsec_s;

@@ -17,6 +17,8 @@ public:
     virtual ~Source() = default;
     [[nodiscard]] virtual double increment_arcsec(double t0_s, double t1_s) const = 0;
     [[nodiscard]] virtual double duration_s() const { return std::numeric_limits<double>::infinity(); }
+    [[nodiscard]] virtual double fastest_arcsec_s() const { return std::numeric_limits<double>::infinity(); }
+    [[nodiscard]] virtual bool is_even() const { return false; }
 };
 
 std::shared_ptr<const Motion::Source> make_sines(double rate_arcsec_s, const std::vector<Sine>& sines);

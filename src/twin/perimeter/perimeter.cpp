@@ -134,6 +134,28 @@ void Perimeter::take_half_wave(double half_wave_v) {
     excess_ *= growth;
 }
 
+double Perimeter::leap(std::int64_t halves, double drift_lambda, double half_wave_v) {
+    const double set_point = set_points_.empty() ? v_ : set_points_.back();
+    const double before_v = stage_.volts(set_point);
+    const double growth = stage_.take_half_wave(half_wave_v);
+    loop_.take_stage(stage_);
+    const double passed = drift_lambda - drift_;
+    v_ -= passed;
+    command_ -= passed;
+    // The error of the second input is one of a voltage, which stays.
+    const double after = set_point + injected_ - passed - growth * injected_;
+    injected_ *= growth;
+    drift_ = drift_lambda;
+    halves_since_closing_ += static_cast<double>(halves);
+    return stage_.volts(after) - before_v;
+}
+
+double Perimeter::voltage_after(double drift_lambda, double half_wave_v) const {
+    HighVoltage stage = stage_;
+    stage.take_half_wave(half_wave_v);
+    return stage.volts(v_ - (drift_lambda - drift_));
+}
+
 void Perimeter::take_set_points(const core::ActuatorFrame& frame) {
     set_points_.clear();
     for (std::size_t k = 0; k < frame.n_set_points; ++k) {

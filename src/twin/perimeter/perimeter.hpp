@@ -1,6 +1,7 @@
 #pragma once
 // Length of the ring: the piezo's part and the block's own, under whoever holds it.
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -37,6 +38,13 @@ public:
     // length_lambda  written: the length at its start and after each of its steps, n_steps + 1 numbers.
     // return         whether the loop was linear throughout: closed, and within the straight part of its error signal.
     bool live(std::span<double> length_lambda);
+
+    // Let halves pass in which the loop holds its detuning while the block grows and the half-wave voltage changes.
+    //
+    // return  by how much the set-point of a digital loop has followed, V.
+    double leap(std::int64_t halves, double drift_lambda, double half_wave_v);
+    // Of the piezo after that, within the range or not.
+    [[nodiscard]] double voltage_after(double drift_lambda, double half_wave_v) const;
 
     // The mode that lases now: the nearest.
     [[nodiscard]] const Mode& mode() const { return mode_; }

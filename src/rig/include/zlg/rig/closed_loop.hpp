@@ -8,6 +8,7 @@
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
 #include <zlg/core/records.hpp>
+#include <zlg/rig/leap.hpp>
 #include <zlg/rig/measured_half_wave.hpp>
 #include <zlg/rig/processor.hpp>
 #include <zlg/rig/replay.hpp>
@@ -34,6 +35,10 @@ public:
 
     LoopHalf advance();
 
+    // Of fidelity `events`, where it is quiet here and the next event is far: a leap towards it, of at most so many
+    // halves. To be asked before each tick, until there is none; then a tick is to be lived.
+    std::optional<Leap> leap(std::int64_t most_halves);
+
     // The light samples of the half before, until the next `advance`.
     [[nodiscard]] core::LightSamples light() const;
 
@@ -42,17 +47,23 @@ public:
     [[nodiscard]] const core::GyroControlState& control() const { return control_state_; }
 
 private:
+    [[nodiscard]] std::int64_t quiet_ticks(std::int64_t most_halves);
     LoopHalf step_here();
     LoopHalf step_outside();
 
-    config::Config config_;  // for messages
+    config::Config config_;         // for messages
+    std::optional<LeapPlan> plan_;  // of a gyro that leaps
     twin::Twin twin_;
     core::GyroControlConfig control_config_;
     core::GyroControlState control_state_;
     core::ActuatorFrame actuator_;
     MeasuredHalfWave half_wave_;
     const core::SensorFrame* sensor_;  // of the twin, which keeps its place
-    std::optional<Replay> adviser_;    // compensation beside the control, for a schedule that asks for what is measured
+    core::HalfRecord last_{};          // of the half before
+    std::int64_t piece_ticks_ = 0;     // of the leaps up to the next event
+    std::int64_t learn_ticks_ = 0;     // before it
+    bool has_leapt_ = false;
+    std::optional<Replay> adviser_;  // compensation beside the control, for a schedule that asks for what is measured
     Processor* processor_;
 };
 

@@ -16,8 +16,13 @@ namespace zlg::rig {
 
 class Fingerprint {
 public:
+    // Of a gyro of fidelity `events` it is none of a gyro that lives every half.
+    explicit Fingerprint(bool of_events = false) : before_last_{of_events ? 1u : 0u} {}
+
     // Each half in its order, with the frame that it began from.
     void take(const LoopHalf& half, const core::SensorFrame& sensor);
+    // A leap between two halves.
+    void take(const Leap& leap);
     // Each row of the angle log in its order, before or after the halves that it comes from.
     void take(const core::AngleRow& row);
 
@@ -37,7 +42,7 @@ private:
     // half.
     std::array<unsigned char, max_half_bytes> last_half_;
     std::size_t n_last_half_ = 0;
-    std::uint64_t before_last_ = 0;  // hash of the halves before it
+    std::uint64_t before_last_;  // hash of the halves before it
     std::uint64_t rows_ = 0;
 };
 

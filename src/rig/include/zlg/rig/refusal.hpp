@@ -20,4 +20,9 @@ namespace zlg::rig {
 // More than a counter of 64 bits can tell, or no number at all, shows only when the gyro runs.
 [[noreturn]] void refuse_rate(const config::Config& config, std::string_view what);
 
+// errors  config::ConfigError of fidelity `events`, in which there is no such log.
+//
+// log, instead  what is asked for, and what is allowed in its place.
+void require_every_half(const config::Config& config, const std::string& log, const std::string& instead);
+
 }  // namespace zlg::rig

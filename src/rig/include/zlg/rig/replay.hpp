@@ -8,6 +8,7 @@
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/records.hpp>
 #include <zlg/rig/bias_check.hpp>
+#include <zlg/rig/leap.hpp>
 #include <zlg/rig/place_check.hpp>
 
 namespace zlg::rig {
@@ -56,6 +57,18 @@ public:
         angle_arcsec_ = out.angle_arcsec;
         hand_over(out.sample, on_row, on_gap);
         return out;
+    }
+
+    // Halves are leapt over, at the border of two ticks, with no gap open: the rows until then.
+    //
+    // return  the angle of the leap.
+    template <class OnRow = decltype(ignored)>
+    double leap(const Leap& leap, const OnRow& on_row = ignored) {
+        end(on_row);
+        halves_ += leap.halves;
+        const double arcsec = rig::leap(config_, state_, leap);
+        angle_arcsec_ = state_.angle.value_arcsec(config_.gyro.scale.value());
+        return arcsec;
     }
 
     // There are no more halves: the rows and gaps that are still open.

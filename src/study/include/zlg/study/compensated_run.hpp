@@ -31,6 +31,9 @@ public:
     // The next half of the loop and the light samples of it.
     void take(const rig::LoopHalf& half, core::LightSamples light);
 
+    // A leap of the loop, between two ticks.
+    void leap(const rig::Leap& leap);
+
     // As delivered up to the last whole tick.
     [[nodiscard]] double angle_arcsec() const { return replay_.angle_arcsec(); }
 

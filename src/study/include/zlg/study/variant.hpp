@@ -44,6 +44,8 @@ struct SwitchStatistics {
 class Drift {
 public:
     void add(double t_s, double error_arcsec);
+    // So many times, of the last the time and the error, from what was added last on a straight line.
+    void add(double n, double step_s, double t_s, double from_arcsec, double error_arcsec);
     [[nodiscard]] double slope_arcsec_s() const;  // 0 with fewer than two points
 
 private:
@@ -76,6 +78,9 @@ public:
 
     // A final row, what is true of its tick, and the switches known by now, oldest first.
     void take(const core::AngleRow& row, const TickTruth& truth, const std::deque<SwitchWindow>& windows);
+
+    // Ticks without a row, none of a switch: what they add to the angle, less what is true of them.
+    void leap(std::int64_t ticks, double error_arcsec);
 
     // The run has ended: a switch whose window is not over is dropped.
     [[nodiscard]] const std::vector<SwitchError>& switches() const { return done_; }

@@ -11,6 +11,7 @@ namespace zlg::twin {
 enum class Fidelity {
     averaged,  // eqs (1) and (2): bias, discriminator and drifts as configured
     laser,     // the four-wave laser and the phases of its beats, from which these follow
+    events,    // `averaged` around every event; between two, by its laws (leap.hpp)
 };
 
 // Who closes the perimeter loop.

@@ -39,6 +39,11 @@ public:
     // Length of sampled motion; infinite for analytic motion.
     [[nodiscard]] double duration_s() const;
 
+    // No rate is larger; infinite where no bound is known.
+    [[nodiscard]] double fastest_arcsec_s() const;
+    // One rate for ever.
+    [[nodiscard]] bool is_even() const;
+
     class Source;
 
 private:

@@ -4,9 +4,11 @@
 // It obeys actuator frames and answers with sensor frames, and tells beside them the truth that no gyro knows. How much
 // physics lies between the two is its fidelity; the interface is the same.
 
+#include <cstdint>
 #include <memory>
 
 #include <zlg/core/records.hpp>
+#include <zlg/twin/leap.hpp>
 #include <zlg/twin/motion.hpp>
 #include <zlg/twin/twin_config.hpp>
 #include <zlg/twin/twin_half.hpp>
@@ -35,6 +37,16 @@ public:
     // return  until the next call.
     // cost    about 0.3 us with 16 light samples, of `laser` about 2.7 us; no allocation.
     const TwinHalf& advance(const core::ActuatorFrame& actuator);
+
+    // Halves from here on that may be leapt over where the loop has settled: of an averaged gyro those before the next
+    // fault; 0 of a laser, and of a gyro whose halves follow no closed law.
+    [[nodiscard]] std::int64_t quiet_halves();
+    // Of the piezo, when so many quiet halves have passed. It changes in one direction only.
+    [[nodiscard]] double voltage_after(std::int64_t halves);
+    // Pass over so many quiet halves, an even number.
+    //
+    // singly  whether each of them is told; the walk is then drawn half by half.
+    Leap leap(std::int64_t halves, bool singly = false);
 
 private:
     std::unique_ptr<Gyro> gyro_;

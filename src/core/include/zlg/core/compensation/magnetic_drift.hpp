@@ -108,6 +108,13 @@ struct MagneticTick {
 [[nodiscard]] double step(const CompensationConstants& gyro, const MagneticDriftConfig& config,
                           MagneticDriftState& state, const MagneticTick& tick) noexcept;
 
+// The same of so many measured ticks of the segment that goes on, whose angle comes evenly; ticks >= 1.
+//
+// return  the angle to subtract from all of them.
+// cost    that of a tick, and 1/1024 of it for each.
+[[nodiscard]] double leap(const CompensationConstants& gyro, const MagneticDriftConfig& config,
+                          MagneticDriftState& state, std::int64_t ticks, double angle_arcsec) noexcept;
+
 // The part of Om that is subtracted.
 [[nodiscard]] constexpr double taken_out(const MagneticDriftConfig& config, const MagneticDriftState& state) noexcept {
     return config.method == MagneticMethod::estimate ? state.trust : 0.0;

@@ -32,6 +32,24 @@ inline void accumulate(SegmentRateState& state, double angle_arcsec) noexcept {
     ++state.n_ticks;
 }
 
+// Add so many ticks that share an angle evenly.
+//
+// accuracy  1/n^4 of the sums for n ticks, by the rule of the middles and its next term.
+inline void accumulate(SegmentRateState& state, double angle_arcsec, std::int64_t ticks) noexcept {
+    const double tick_arcsec = angle_arcsec / as_double(ticks);
+    const double first = as_double(state.n_ticks), last = as_double(state.n_ticks + ticks);
+    double first_power = first, last_power = last;
+    double p = 2.0;
+    for (double& moment : state.moments) {
+        const double at_last = last_power * (last * last / (p + 1.0) - p / 24.0);
+        moment += tick_arcsec * (at_last - first_power * (first * first / (p + 1.0) - p / 24.0));
+        first_power *= first;
+        last_power *= last;
+        p += 1.0;
+    }
+    state.n_ticks += ticks;
+}
+
 // Least squares with the weight u^2 (1 - u)^2, u = 0..1 from start to end, x = 2 u - 1:
 //
 //   rate(x) = mean + change x/2 + curvature (x^2 - 1/7)

@@ -1,0 +1,85 @@
+#include <zlg/rig/leap.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <zlg/core/compensation/gap_bridge_config.hpp>
+
+namespace zlg::rig {
+namespace {
+
+constexpr std::int64_t never = std::int64_t{1} << 62;
+
+// Of light_balance.hpp: 100 ticks, one in four.
+constexpr std::int64_t balance_ticks = 400;
+constexpr std::int64_t halves_of_a_debounce = 8;
+constexpr double time_constants = 12.0;  // exp(-12) of a miss of .22 wavelength is below what the light shows
+
+std::int64_t settling_ticks(const config::Config& config) {
+    return static_cast<std::int64_t>(std::ceil(time_constants * config.perimeter.tau_s / config.gyro.tick_s));
+}
+
+}  // namespace
+
+LeapPlan leap_plan(const config::Config& config, const core::GyroCompensationConfig& compensation,
+                   const twin::Motion& motion) {
+    const core::GapBridgeConfig bridge = bridge_of(compensation);
+    const bool is_estimated = core::is_estimated(bridge);
+    const bool by_phase = config.gyro.readout == config::Readout::phase;
+    const bool drifts_are_followed = by_phase || compensation.magnetic.method != core::MagneticMethod::none;
+    const std::int64_t settles = settling_ticks(config);
+    const std::int64_t corrected =
+        std::max<std::int64_t>(config.compensation.relock_ticks, core::ticks_to_correction(compensation.gyro, bridge));
+    const std::int64_t window = std::max(core::ticks_before_estimate, 8);
+    return {.start_ticks = (by_phase ? 5 : 2) * balance_ticks,
+            .after_ticks = std::max(settles, corrected) + halves_of_a_debounce,
+            .before_ticks = settles + window + halves_of_a_debounce,
+            .learn_ticks = is_estimated ? static_cast<std::int64_t>(core::forget_ticks) : 0,
+            .all_singly = drifts_are_followed && !motion.is_even()};
+}
+
+std::string why_lived(const config::Config& config, const twin::Motion& motion) {
+    const config::Piezo& z = config.piezo;
+    if (z.hysteresis != 0.0) return fmt::format("piezo.hysteresis = {}", z.hysteresis);
+    if (z.creep_per_decade != 0.0) return fmt::format("piezo.creep_per_decade = {}", z.creep_per_decade);
+    if (z.mirror_hz != 0.0) return fmt::format("piezo.mirror_hz = {}", z.mirror_hz);
+    if (config.compensation.lock_in_hz != 0.0)
+        return fmt::format("compensation.lock_in_hz = {}", config.compensation.lock_in_hz);
+    const double bias_counts_s = std::abs(config.gyro.bias_hz);
+    const double fastest_counts_s = motion.fastest_arcsec_s() / config.gyro.scale_arcsec;
+    // Beyond, a half may look faulty by its counts alone.
+    if (!(fastest_counts_s < 0.25 * bias_counts_s))
+        return fmt::format("[motion] of up to {:.6g} arcsec/s, which is a quarter of the bias or more",
+                           motion.fastest_arcsec_s());
+    return {};
+}
+
+std::int64_t next_opening(const core::SwitchScheduleConfig& c, const core::SwitchScheduleState& s, std::int64_t tick,
+                          std::int8_t mode) {
+    if (s.waiting || s.asked) return tick;
+    if (s.balanced) return never;
+    // Ticks of the mode until then are those that pass.
+    const std::int64_t lead = mode * s.imbalance_ticks;
+    std::int64_t next = s.next_tick;
+    if (c.kind != core::ScheduleKind::fixed) {
+        const std::int64_t rested = s.opened_tick == 0 ? 0 : s.opened_tick + c.min_ticks - c.min_ticks / 16;
+        next = std::max(tick + s.interval_ticks / 2 - (lead - mode * s.centre_ticks) - 1, rested);
+    }
+    if (c.end_tick > 0) next = std::min(next, tick + (c.end_tick - tick - lead) / 2 - 1);
+    return std::max(next, tick);
+}
+
+bool is_quiet(const LeapPlan& plan, const core::GyroControlState& s) {
+    const bool is_locked = s.mode_switch.loop_closed && s.mode_switch.phase == core::SwitchPhase::tracking;
+    const bool is_light_good = !s.light_spoilt && !s.light_monitor.is_unbalanced && s.light_monitor.n_noisy == 0 &&
+                               !s.light_balance.changes && s.light_balance.n_faded == 0;
+    const bool is_count_good = !s.counter_stale && !s.reading_monitor.suspected && s.reading_monitor.n_since == 0 &&
+                               s.counter_monitor.stuck == 0 && s.bias_monitor.n_steady == 0;
+    return s.half % 2 == 0 && s.half >= 2 * plan.start_ticks && s.detuning_monitor.n_good >= 2 * plan.after_ticks &&
+           s.mode_switch.n_halves >= 2 * plan.after_ticks && is_locked && is_light_good && is_count_good &&
+           s.coil_monitor.n_steady == 0 && s.n_near_end == 0 && s.order.known && s.commutator.timer_known;
+}
+
+}  // namespace zlg::rig

@@ -1,0 +1,116 @@
+// Leaps of the averaged gyro.
+
+#include <cmath>
+#include <cstddef>
+
+#include <zlg/core/common/maths.hpp>
+
+#include "averaged_gyro.hpp"
+
+namespace zlg::twin {
+namespace {
+
+// Mean of 1 - exp(-t/T) from t0 to t1.
+double mean_warming(double thermal_time_s, double start_s, double end_s) {
+    const double length = (end_s - start_s) / thermal_time_s;
+    return 1.0 + core::maths::exp(-start_s / thermal_time_s) * core::maths::expm1(-length) / length;
+}
+
+double ratio(double after, double before) { return before != 0.0 ? after / before : 1.0; }
+
+}  // namespace
+
+// What adds to the phase in halves start, start + 1, ... beside the walk.
+struct AveragedGyro::Drifts {
+    std::uint64_t start = 0;
+    double rate_arcsec_s = 0.0;      // of both drifts
+    double first_bias_cycles = 0.0;  // of a half of positive sign, at the start,
+    double last_bias_cycles = 0.0;   // and at the end
+    int helicity = 1;
+};
+
+// What a piezo with a memory, or a fault, does to a half follows from all halves before it.
+std::int64_t AveragedGyro::quiet_halves() {
+    const PiezoConfig& z = config_.piezo;
+    const bool has_memory = z.hysteresis != 0.0 || z.creep_per_decade != 0.0 || z.mirror_hz != 0.0;
+    return has_memory ? 0 : housing_.halves_without_fault();
+}
+
+Leap AveragedGyro::leap(std::int64_t halves, bool singly) {
+    const std::uint64_t start = housing_.index();
+    const double start_s = housing_.start_s();
+    const double half_s = housing_.half_s();
+    const Mode mode = housing_.perimeter().mode();
+    const double hz_before = bias_hz();
+    const double light = housing_.photodiodes().power(start_s);
+    const double balance = housing_.photodiodes().gain_growth(start_s);
+    const std::uint64_t counter = counter_.value();
+    Leap made{.halves = halves, .start_place = counter_.fraction(), .set_point_v = housing_.leap(halves)};
+    const double end_s = housing_.start_s();
+    const double warmed = mean_warming(config_.drift.thermal_time_s, start_s, end_s);
+    const DriftConfig& d = config_.drift;
+    const double lit =
+        mode.helicity() * half_s * (1.0 - config_.gyro.bias_chi * mode.detuning_lambda * mode.detuning_lambda);
+    const Drifts drifts{
+        .start = start,
+        .rate_arcsec_s =
+            mode.helicity() * (d.magnetic_arcsec_s + d.magnetic_thermal_arcsec_s * warmed) + d.nonmagnetic_arcsec_s,
+        .first_bias_cycles = lit * hz_before,
+        .last_bias_cycles = lit * bias_hz(),
+        .helicity = mode.helicity()};
+    made.dtheta_arcsec = motion_.increment_arcsec(start_s, end_s);
+    if (singly)
+        pass_singly(drifts, made);
+    else
+        pass_over(drifts, made);
+    made.counts = static_cast<std::int64_t>(counter_.value() - counter);
+    housing_.count_on(counter_.value());
+    made.rounding_arcsec = -config_.gyro.scale_arcsec * counter_.fraction();
+    made.temperature_c = housing_.temperature_c();
+    made.light_ratio = ratio(housing_.photodiodes().power(end_s), light);
+    made.balance_ratio = ratio(housing_.photodiodes().gain_growth(end_s), balance);
+    made.bias_ratio = ratio(bias_hz(), hz_before);
+    return made;
+}
+
+// Of a bias that grows evenly, b per half, the signs +, -, +, - leave -b n/2.
+void AveragedGyro::pass_over(const Drifts& drifts, Leap& made) {
+    const auto n = static_cast<double>(made.halves);
+    const double walk =
+        walk_of_half_arcsec_ * std::sqrt(n) * Noise{config_.seed, chance::Cause::leap}.gauss(drifts.start, 0);
+    const double turned = made.dtheta_arcsec + drifts.rate_arcsec_s * n * housing_.half_s() + walk;
+    const double growth = drifts.last_bias_cycles - drifts.first_bias_cycles;
+    made.turned_counts = turned / config_.gyro.scale_arcsec - 0.5 * housing_.bias_sign() * growth;
+    counter_.advance(made.turned_counts);
+}
+
+void AveragedGyro::pass_singly(const Drifts& drifts, Leap& made) {
+    const double half_s = housing_.half_s();
+    const double scale = config_.gyro.scale_arcsec;
+    const bool by_phase = config_.gyro.readout == Readout::phase;
+    const Noise reading{config_.seed, chance::Cause::leap, 1};
+    const double growth = (drifts.last_bias_cycles - drifts.first_bias_cycles) / static_cast<double>(made.halves);
+    const double even_arcsec = made.dtheta_arcsec / static_cast<double>(made.halves);
+    const bool is_even = motion_.is_even();
+    int sign = housing_.bias_sign();
+    made.half.resize(static_cast<std::size_t>(made.halves));
+    for (std::size_t k = 0; k < made.half.size(); ++k, sign = -sign) {
+        const std::uint64_t half = drifts.start + k;
+        const double from_s = static_cast<double>(half) * half_s;
+        const double turn =
+            is_even ? even_arcsec : motion_.increment_arcsec(from_s, static_cast<double>(half + 1) * half_s);
+        const double walk = walk_of_half_arcsec_ > 0.0 ? walk_of_half_arcsec_ * walk_noise_.gauss(half) : 0.0;
+        const double cycles = sign * (drifts.first_bias_cycles + growth * static_cast<double>(k)) +
+                              (turn + drifts.rate_arcsec_s * half_s + walk) / scale;
+        const std::uint64_t before = counter_.value();
+        counter_.advance(cycles);
+        made.turned_counts += cycles;
+        QuietHalf& one = made.half[k];
+        one.counts = static_cast<std::int64_t>(counter_.value() - before);
+        one.place = counter_.fraction();
+        if (by_phase) one.place_deviate = reading.gauss(half, 0);
+        one.bias_sign = static_cast<std::int8_t>(sign);
+    }
+}
+
+}  // namespace zlg::twin

@@ -1,0 +1,39 @@
+#pragma once
+// Halves that a gyro passes over at once: what has happened in them, by the laws that its halves follow.
+//
+//   phase = sum over the halves of rotation + helicity Om(t) + nonmagnetic drift, and one draw of the walk
+//
+// Rotation and drift are integrals, the loop holds its detuning while the block grows, and the bias cancels in pairs of
+// halves but for its growth. A digital loop adds the noise that light makes of its detuning.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace zlg::twin {
+
+// One half of those that were asked for singly.
+struct QuietHalf {
+    std::int64_t counts = 0;     // of the counter, bias among them
+    double place = 0.0;          // within the count at its end, 0..1
+    double place_deviate = 0.0;  // noise of its reading, of unit variance
+    std::int8_t bias_sign = 1;
+};
+
+struct Leap {
+    std::int64_t halves = 0;       // even
+    double dtheta_arcsec = 0.0;    // rotation of the case
+    double turned_counts = 0.0;    // phase
+    std::int64_t counts = 0;       // of the counter
+    double start_place = 0.0;      // within the count at its start, 0..1
+    double rounding_arcsec = 0.0;  // counter less phase at the end
+    double set_point_v = 0.0;      // by which that of a digital loop has followed the block
+    double temperature_c = 0.0;    // at the end
+    // At the end over those at the start: the light of beam A, of B over A, the bias.
+    double light_ratio = 1.0;
+    double balance_ratio = 1.0;
+    double bias_ratio = 1.0;
+    std::vector<QuietHalf> half{};  // all of them, or none
+};
+
+}  // namespace zlg::twin
