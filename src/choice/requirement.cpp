@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -79,26 +80,28 @@ void read_demands(const Table& require, Requirement& r) {
     if (require.has("gyros")) r.gyros = require.integer("gyros", 1, most_gyros);
 }
 
-// [[tolerance]], or [tolerance] alone for one parameter.
-std::vector<sweep::Parameter> read_tolerance(const toml::table& document, std::string_view source_name,
-                                             const config::Config& base) {
-    toml::table made;
-    if (const toml::node* node = document.get("tolerance")) {
-        const toml::table* one = node->as_table();
-        if (one != nullptr && one->contains("parameter"))
-            made.insert("tolerance", *one->get("parameter"));
-        else if (one != nullptr)
-            made.insert("tolerance", toml::array{*one});
-        else
-            made.insert("tolerance", *node);
-    }
-    const Table root{source_name, "tolerance", made};
+// [[tolerance]] out of what else may be written: [tolerance] alone for one parameter, [[tolerance.parameter]].
+void make_list_of_tolerances(toml::table& document) {
+    toml::node* node = document.get("tolerance");
+    if (node == nullptr || !node->is_table()) return;
+    toml::table table = std::move(*node->as_table());
+    toml::array list;
+    if (toml::node* parameters = table.get("parameter"); parameters != nullptr && parameters->is_array())
+        list = std::move(*parameters->as_array());
+    else
+        list.push_back(std::move(table));
+    document.insert_or_assign("tolerance", std::move(list));
+}
+
+std::vector<sweep::Parameter> read_tolerance(const Table& root, const config::Config& base) {
     std::vector<sweep::Parameter> drawn = sweep::read_parameters(root, "tolerance", base);
     for (const sweep::Parameter& p : drawn)
         for (const std::string& key : p.keys)
             if (is_chosen(key))
-                root.fail(
-                    fmt::format("keys = [\"{}\"]: that is chosen or said elsewhere; allowed is what the gyro is", key));
+                throw ConfigError{
+                    fmt::format("{}: [[tolerance]] keys = [\"{}\"]: that is chosen or said elsewhere; allowed is "
+                                "what the gyro is",
+                                root.source_name(), key)};
     return drawn;
 }
 
@@ -147,7 +150,8 @@ double Requirement::limit_arcsec() const {
 
 Requirement parse_requirement(std::string_view text, std::string_view source_name,
                               const std::vector<std::string>& sets) {
-    const toml::table document = sweep::parse_document(text, source_name);
+    toml::table document = sweep::parse_document(text, source_name);
+    make_list_of_tolerances(document);
     const Table root{source_name, "require", document};
     if (!root.node("require").is_table()) root.fail(root.node("require"), "require is a section: write [require] once");
     Requirement r;
@@ -161,7 +165,7 @@ Requirement parse_requirement(std::string_view text, std::string_view source_nam
     config::apply_pair(r.base, "run.duration_s", text::toml_real(r.run_s), source_name);
     config::check(r.base);
     if (r.base.motion.kind == config::MotionKind::file) text::note_input(r.base.motion.path);
-    r.tolerance = read_tolerance(document, source_name, r.base);
+    r.tolerance = read_tolerance(root, r.base);
     check_whole(r, source_name);
     return r;
 }

@@ -86,43 +86,61 @@ std::string interval_reason(const Requirement& r, const Answer& answer) {
         if (e.candidate.method == c.method && e.candidate.interval_s > c.interval_s) longer = &e;
     const std::string start = fmt::format("Interval {} s{}: ", short_number(c.interval_s),
                                           c.first_segment == config::FirstSegment::half
-                                              ? " with a half first segment, which lets the sawtooth run about its mean"
+                                              ? " with a half first segment, so that the sawtooth runs about its mean"
                                               : "");
-    if (!answer.met) return start + "the least error of those that were tried.";
     if (longer == nullptr) return start + "of longer ones the closed forms leave none.";
     return start + fmt::format("of the next longer one, {} s, {} meet it.", short_number(longer->candidate.interval_s),
                                share_text(r, *longer));
 }
 
-std::vector<std::string> reasons_of(const Requirement& r, const std::vector<std::string>& excluded,
-                                    const Answer& answer) {
+// What was added to the paper's gyro, and what comes of it without.
+std::vector<std::string> addition_reasons(const Requirement& r, const Answer& answer) {
     const Method& m = answer.proof.candidate.method;
-    std::vector<std::string> all{interval_reason(r, answer)};
-    const auto add = [&](bool is_addition, const char* what, const char* simplest, const auto& lacks) {
-        all.push_back(is_addition ? fmt::format("{}: {}.", what, without(r, answer, lacks)) : std::string{simplest});
+    std::vector<std::string> all;
+    const auto add = [&](bool is_addition, const char* what, const char* otherwise, const auto& lacks) {
+        all.push_back(is_addition ? fmt::format("{}: {}.", what, without(r, answer, lacks)) : std::string{otherwise});
     };
-    add(m.relock == core::RelockMethod::joint, "The joint estimate of each switch", "Corrections of the paper suffice.",
+    add(m.relock == core::RelockMethod::joint, "The joint estimate of each switch", "The paper's corrections suffice.",
         [](const Candidate& c) { return c.method.relock != core::RelockMethod::joint; });
-    add(m.reading == Reading::phase, "Reading by phase",
-        m.reading == Reading::x4 ? "Four counts a fringe: with one the closed forms or the trials fall short."
-                                 : "One count a fringe suffices.",
-        [](const Candidate& c) { return c.method.reading != Reading::phase; });
+    add(m.reading != Reading::x1, m.reading == Reading::x4 ? "Four counts a fringe" : "Reading by phase",
+        "One count a fringe suffices.", [&](const Candidate& c) { return c.method.reading < m.reading; });
     add(m.schedule == config::Schedule::measured, "A schedule that measures", "A fixed schedule suffices.",
         [](const Candidate& c) { return c.method.schedule == config::Schedule::fixed; });
     add(m.magnetic == core::MagneticMethod::estimate, "The estimate of the magnetic drift",
         "No estimate of the magnetic drift is needed.",
         [](const Candidate& c) { return c.method.magnetic == core::MagneticMethod::none; });
-    add(m.tick_s != r.base.gyro.tick_s, "Another tick", "The tick of the gyro.",
+    add(m.tick_s != r.base.gyro.tick_s, "Another tick", "The gyro's tick suffices.",
         [&](const Candidate& c) { return c.method.tick_s == r.base.gyro.tick_s; });
+    return all;
+}
+
+std::string runner_up_reason(const Requirement& r, const Answer& answer) {
+    const Candidate& second = answer.runner_up->candidate;
+    return fmt::format(
+        "Runner-up: {}; {} meet it. Its cost: {} additions to the paper's gyro in place of {}, {} "
+        "switches in place of {}.",
+        in_words(second), share_text(r, *answer.runner_up), second.method.additions,
+        answer.proof.candidate.method.additions, switches_until(r.run_s, second),
+        switches_until(r.run_s, answer.proof.candidate));
+}
+
+std::vector<std::string> reasons_of(const Requirement& r, const std::vector<std::string>& excluded,
+                                    const Answer& answer) {
+    std::vector<std::string> all;
+    if (answer.met) {
+        all = addition_reasons(r, answer);
+        all.insert(all.begin(), interval_reason(r, answer));
+    } else {
+        all.push_back(
+            "Of all methods and intervals this one leaves the least error, by the closed forms and by trials.");
+    }
     all.push_back("The perimeter loop and its constants are the gyro's: it settles within the corrected ticks.");
     all.insert(all.end(), excluded.begin(), excluded.end());
-    if (answer.runner_up)
-        all.push_back(fmt::format(
-            "Runner-up: {} ({} meet it), at the cost of {} additions to the paper's gyro in place "
-            "of {} and {} switches in place of {}.",
-            in_words(answer.runner_up->candidate), share_text(r, *answer.runner_up),
-            answer.runner_up->candidate.method.additions, m.additions,
-            switches_until(r.run_s, answer.runner_up->candidate), switches_until(r.run_s, answer.proof.candidate)));
+    all.push_back(
+        fmt::format("All of this is of the angle after {} s; a run that ends within a segment ends with up to "
+                    "{} arcsec of the sawtooth and of switches of one sign.",
+                    short_number(r.run_s), short_number(answer.budget.back().second)));
+    if (answer.runner_up) all.push_back(runner_up_reason(r, answer));
     if (answer.refused + answer.lost > 0)
         all.push_back(
             fmt::format("Of {} gyros the tolerances make {} impossible, and {} lost their switches: none of "
