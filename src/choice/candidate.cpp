@@ -160,7 +160,8 @@ std::vector<Candidate> candidates(const Requirement& requirement, const Method& 
             intervals_s.insert(requirement.run_s / std::round(parts));
         for (double decade = 1.0; decade < requirement.run_s; decade *= 10.0)
             for (const double step : {1.0, 1.5, 2.0, 3.0, 4.5, 6.0, 9.0}) intervals_s.insert(decade * step);
-        std::erase_if(intervals_s, [&](double s) { return !(s >= least_s && s <= requirement.run_s); });
+        std::erase_if(intervals_s, [&](double s) { return !(s >= least_s && s < requirement.run_s); });
+        intervals_s.insert(requirement.run_s);
     }
     std::vector<config::FirstSegment> firsts{config::FirstSegment::full, config::FirstSegment::half};
     if (!is_open(requirement, "switching.first_segment")) firsts = {requirement.base.switching.first_segment};

@@ -28,6 +28,7 @@ twin::Motion with_ramps(const Requirement& requirement, const config::Config& gy
         if (is_fixed) steps.push_back({at_s + ramp_s, is_up ? peak : 0.0, 0.0});
         is_up = !is_up;
     }
+    steps.push_back({run_s + 2.0 * ramp_s, 0.0, 0.0});
     return twin::Motion::with_steps(std::move(base),
                                     std::make_shared<const std::vector<twin::RateStep>>(std::move(steps)));
 }

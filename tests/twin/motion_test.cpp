@@ -111,6 +111,8 @@ TEST(Motion, AStepMayHaveASlope) {
     EXPECT_EQ(motion.increment_arcsec(0.0, 2.0), 4.0);
     EXPECT_EQ(motion.increment_arcsec(2.0, 3.0), 16.0 - 4.0);
     EXPECT_EQ(motion.increment_arcsec(0.0, 4.0), 16.0 + 16.0);
+    EXPECT_EQ(motion.fastest_arcsec_s(), 16.0);
+    EXPECT_EQ(Motion::with_steps(Motion::sines(-3.0, {}), steps).fastest_arcsec_s(), 19.0);
 }
 
 TEST(Motion, BeforeItsFirstStepAMotionIsItsBaseToTheLastBit) {

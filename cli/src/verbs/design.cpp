@@ -163,7 +163,7 @@ void add_design(CLI::App& program) {
     verb->add_option("--require", options->require,
                      "what the gyro must keep, TOML: the simplest choice that does, proved on many gyros");
     verb->add_option("--rules", options->rules, "paper: by the paper's rules alone")->check(CLI::IsMember({"paper"}));
-    verb->add_option("--seed", options->seed, "seed of the gyros of --require (1)");
+    verb->add_option("--seed", options->seed, "seed of all noise (1)");
     verb->add_option("--threads", options->threads, "1..64 (2)")->check(CLI::Range(1, 64).description(""));
     add_output_options(*verb, *options);
     verb->callback([options] {

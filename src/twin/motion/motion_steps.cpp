@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "motion_source.hpp"
@@ -32,6 +34,20 @@ public:
     }
 
     [[nodiscard]] double duration_s() const override { return base_->duration_s(); }
+
+    // Of steps that may still be added nobody knows; a slope without an end has none.
+    [[nodiscard]] double fastest_arcsec_s() const override {
+        double fastest = 0.0;
+        for (std::size_t k = 0; k < steps_->size(); ++k) {
+            const RateStep& step = (*steps_)[k];
+            fastest = std::max(fastest, std::abs(step.rate_arcsec_s));
+            if (step.slope_arcsec_s2 == 0.0) continue;
+            if (k + 1 == steps_->size()) return std::numeric_limits<double>::infinity();
+            const double lasts_s = (*steps_)[k + 1].at_s - step.at_s;
+            fastest = std::max(fastest, std::abs(step.rate_arcsec_s + step.slope_arcsec_s2 * lasts_s));
+        }
+        return base_->fastest_arcsec_s() + fastest;
+    }
 
 private:
     std::shared_ptr<const Motion::Source> base_;

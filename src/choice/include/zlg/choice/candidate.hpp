@@ -44,7 +44,7 @@ struct Methods {
 };
 [[nodiscard]] Methods methods(const Requirement& requirement);
 
-// The intervals of a method, simplest first: whole parts of the run, and preferred numbers.
+// The intervals of a method, simplest first: the run, which has no switch, whole parts of it, and preferred numbers.
 [[nodiscard]] std::vector<Candidate> candidates(const Requirement& requirement, const Method& method);
 
 // The gyro with what is chosen for it.
