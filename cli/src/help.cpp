@@ -68,7 +68,8 @@ constexpr std::array verb_table{
              "  zlg analyze rates.csv --map axis=gyro_z --map unit=deg/s --map holds=rate --map rate_hz=100"},
     VerbHelp{"design", designing,
              "  zlg design --out design.html\n"
-             "  zlg design --set drift.magnetic_arcsec_s=2 --run-lengths 600,3600"},
+             "  zlg design --set drift.magnetic_arcsec_s=2 --run-lengths 600,3600\n"
+             "  zlg design --require require.toml --out chosen.toml"},
 };
 
 // Of the same name in every verb.

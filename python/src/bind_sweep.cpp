@@ -1,7 +1,3 @@
-#include <atomic>
-#include <optional>
-#include <thread>
-
 #include <zlg/config/schema.hpp>
 #include <zlg/sweep/checkpoint.hpp>
 #include <zlg/sweep/metrics.hpp>
@@ -10,34 +6,10 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "interruption.hpp"
 
 namespace zlg::python {
 namespace {
-
-// Ctrl-C is seen by the thread that called; the others ask what it saw.
-class Interruption {
-public:
-    bool operator()() {
-        if (std::this_thread::get_id() == caller_ && !is_seen_) {
-            const py::gil_scoped_acquire interpreter;
-            if (PyErr_CheckSignals() != 0) {
-                error_.emplace();
-                is_seen_ = true;
-            }
-        }
-        return is_seen_;
-    }
-
-    // With the interpreter held. errors  what the handler of the signal raised.
-    void raise() {
-        if (error_) throw *error_;
-    }
-
-private:
-    std::thread::id caller_ = std::this_thread::get_id();
-    std::atomic<bool> is_seen_{false};
-    std::optional<py::error_already_set> error_;
-};
 
 py::list number_or_text(const std::vector<sweep::Value>& values) {
     py::list column;

@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, NamedTuple, Optional
+import json
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from types import ModuleType
+from typing import Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _zlg
-from ._columns import made_of
+from ._columns import Progress, made_of
 from ._shown import Shown
 from .config import Config, checked, resolved
 
 __all__ = [
+    "Choice",
     "Design",
     "IntervalLine",
     "Optimum",
     "Relock",
     "SubstitutionLine",
+    "choose",
     "design_gyro",
     "drift_arcsec_s",
     "optimum",
@@ -85,6 +92,37 @@ class Design(Shown):
 
 
 @dataclass(repr=False)
+class Choice(Shown):
+    """What `choose` gives: the simplest gyro that meets a requirement, or the one with the least error."""
+
+    met: bool
+    #: share of the gyros of the proof that meet it, and its standard deviation
+    probability: float
+    probability_sigma: float
+    #: of the proof; of these impossible by the tolerances; without their switches
+    gyros: int
+    refused: int
+    lost: int
+    #: largest error at the end that is allowed; what `confidence` of the gyros keep, None: too many have none
+    required_arcsec: float
+    least_arcsec: Optional[float]
+    confidence: float
+    #: by section and key
+    choice: dict[str, dict[str, Any]]
+    reasons: list[str]
+    budget: dict[str, Any]
+    binding: str
+    would_need: list[dict[str, Any]]
+    #: the first gyros of the proof, every half lived: how many, how many meet it, rms of their errors
+    lived: dict[str, float]
+    #: what `zlg run` and `Config.loads` take
+    toml: str
+    #: HTML
+    page: str
+    runner_up: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(repr=False)
 class Relock(Shown):
     """The perimeter loop from its closing on."""
 
@@ -98,6 +136,42 @@ class Relock(Shown):
 def design_gyro(config: Optional[Config] = None) -> Design:
     """All of it for one gyro. Raises ConfigError; DesignError for a gyro without a budget."""
     return made_of(Design, _zlg.design_gyro(resolved(config)[0]))
+
+
+def choose(
+    require: Union[str, os.PathLike[str]],
+    *,
+    settings: Sequence[str] = (),
+    rules: Literal["all", "paper"] = "all",
+    threads: int = 1,
+    progress: Progress = None,
+) -> Choice:
+    """What `zlg design --require` does; `zlg.design(require=...)` is the same.
+
+    require  a path of a TOML file, or the TOML itself: a text of more than one line.
+    settings  "section.key=value", over it.
+    rules    "paper": by the paper's rules alone, without a gyro tried.
+    Ctrl-C ends it. Raises ConfigError, DesignError, IoError, FormatError.
+    """
+    if rules not in ("all", "paper"):
+        raise ValueError(f"rules = {rules!r}: allowed are 'all' and 'paper'")
+    text, source = os.fspath(require), "require"
+    if "\n" not in text:
+        source = text
+        with open(text, encoding="utf-8") as file:
+            text = file.read()
+    found, toml, page = _zlg.choose(text, source, list(settings), rules == "paper", threads, progress)
+    return made_of(Choice, {**json.loads(found), "toml": toml, "page": page})
+
+
+class _Callable(ModuleType):
+    """`zlg.design(require=...)` is `zlg.design.choose(...)`."""
+
+    def __call__(self, require: Union[str, os.PathLike[str]], **options: Any) -> Choice:
+        return choose(require, **options)
+
+
+sys.modules[__name__].__class__ = _Callable
 
 
 def drift_arcsec_s(

@@ -305,7 +305,7 @@ void switching_run(const RunTask& task, const twin::Motion& motion, std::int64_t
 }  // namespace
 
 RunResult run(const RunTask& task) {
-    const twin::Motion motion = recorded::motion(task.config);
+    const twin::Motion motion = task.motion ? *task.motion : recorded::motion(task.config);
     const std::int64_t ticks = rig::run_ticks(task.config, motion);
     RunResult result{.tick_s = task.config.gyro.tick_s, .ticks = ticks, .warnings = task.warnings};
     std::future<VariantResult> unswitched;

@@ -9,11 +9,10 @@
 #include <fmt/format.h>
 
 #include <zlg/sweep/description.hpp>
+#include <zlg/sweep/description_table.hpp>
 #include <zlg/sweep/metrics.hpp>
 #include <zlg/text/toml_document.hpp>
 #include <zlg/text/toml_text.hpp>
-
-#include "description_table.hpp"
 
 namespace zlg::sweep {
 namespace {
@@ -166,12 +165,12 @@ Metric read_metric(const Table& table) {
 
 // use(table) for each of [[name]].
 template <class Use>
-void for_each_table(const Table& root, std::string_view source_name, const std::string& name, const Use& use) {
+void for_each_table(const Table& root, const std::string& name, const Use& use) {
     if (!root.has(name)) return;
     const toml::array* array = root.node(name).as_array();
     if (array == nullptr || !array->is_array_of_tables())
         root.fail(root.node(name), fmt::format("{} is a list of tables: write [[{}]] above each", name, name));
-    for (const toml::node& node : *array) use(Table{source_name, name, *node.as_table()});
+    for (const toml::node& node : *array) use(Table{root.source_name(), name, *node.as_table()});
 }
 
 // One key is one line of the canonical text, whatever section it was written in.
@@ -213,27 +212,9 @@ void refuse_large_grid(const Table& table, const Description& d, const Parameter
             fmt::format("the grid has more than {} points with this parameter; allowed is that many", max_gyros));
 }
 
-void read_parameters(const Table& root, std::string_view source_name, Description& d) {
-    const config::Config base = base_config(d, source_name);
-    std::map<std::string, config::ValueKind> kinds;
-    for (const config::KeyInfo& key : config::describe_keys()) kinds[key.section + "." + key.name] = key.kind;
-    std::set<std::string> driven;
-    for_each_table(root, source_name, "parameter", [&](const Table& table) {
-        Parameter p = read_parameter(table);
-        refuse_large_grid(table, d, p);
-        for (const std::string& key : p.keys)
-            if (!driven.insert(key).second)
-                table.fail(fmt::format("{} is driven twice; allowed is one parameter", key));
-        d.parameters.push_back(std::move(p));
-    });
-    std::size_t k = 0;
-    for_each_table(root, source_name, "parameter",
-                   [&](const Table& table) { try_values(table, d.parameters[k++], base, kinds); });
-}
-
-void read_metrics(const Table& root, std::string_view source_name, Description& d) {
+void read_metrics(const Table& root, Description& d) {
     std::set<std::string> names;
-    for_each_table(root, source_name, "metric", [&](const Table& table) {
+    for_each_table(root, "metric", [&](const Table& table) {
         d.metrics.push_back(read_metric(table));
         if (!names.insert(d.metrics.back().name).second)
             table.fail(fmt::format("name = {} stands twice; allowed is once", d.metrics.back().name));
@@ -265,6 +246,8 @@ void check_sensitivity(const Table& sweep, const Description& d) {
                      fmt::format("a multiple of {}, two more than there are parameters, for sensitivity", row));
 }
 
+}  // namespace
+
 toml::table parse_document(std::string_view text, std::string_view source_name) {
     try {
         return text::parse_toml(text);
@@ -274,7 +257,23 @@ toml::table parse_document(std::string_view text, std::string_view source_name) 
     }
 }
 
-}  // namespace
+std::vector<Parameter> read_parameters(const Table& root, const std::string& name, const config::Config& base) {
+    std::map<std::string, config::ValueKind> kinds;
+    for (const config::KeyInfo& key : config::describe_keys()) kinds[key.section + "." + key.name] = key.kind;
+    std::set<std::string> driven;
+    Description d;
+    for_each_table(root, name, [&](const Table& table) {
+        Parameter p = read_parameter(table);
+        refuse_large_grid(table, d, p);
+        for (const std::string& key : p.keys)
+            if (!driven.insert(key).second)
+                table.fail(fmt::format("{} is driven twice; allowed is one parameter", key));
+        d.parameters.push_back(std::move(p));
+    });
+    std::size_t k = 0;
+    for_each_table(root, name, [&](const Table& table) { try_values(table, d.parameters[k++], base, kinds); });
+    return std::move(d.parameters);
+}
 
 Description parse(std::string_view text, std::string_view source_name) {
     constexpr std::int64_t int64_max = std::numeric_limits<std::int64_t>::max();
@@ -297,8 +296,8 @@ Description parse(std::string_view text, std::string_view source_name) {
     d.sensitivity = sweep.boolean("sensitivity", d.sensitivity);
     read_base(root, source_name, d);
     read_motion_checksums(root, source_name, d);
-    read_parameters(root, source_name, d);
-    read_metrics(root, source_name, d);
+    d.parameters = read_parameters(root, "parameter", base_config(d, source_name));
+    read_metrics(root, d);
     read_gyros(sweep, d);
     check_sensitivity(sweep, d);
     return d;

@@ -36,6 +36,23 @@ def test_relock_ends_at_the_centre():
     assert abs(loop.detuning_lambda[-1]) < 1e-3 and loop.false_drift_arcsec_s.shape == (20,)
 
 
+def test_a_requirement_is_a_call_of_the_module(tmp_path):
+    path = tmp_path / "require.toml"
+    path.write_text(
+        "[require]\nrun_s = 40\nangle_error_arcsec = 30\nconfidence = 0.8\ngyros = 20\n"
+        '[motion]\nkind = "rest"\n[switching]\nschedule = "fixed"\n[compensation]\nmagnetic = "none"\n'
+    )
+    found = zlg.design(require=path)
+    assert found.met and found.probability >= 0.8 and found.gyros == 20
+    assert found.choice["switching"]["interval_s"] <= 40 and found.reasons and "<svg" in found.page
+    (tmp_path / "chosen.toml").write_text(found.toml)
+    assert zlg.Config.load(tmp_path / "chosen.toml").switching.interval_s == found.choice["switching"]["interval_s"]
+    paper = design.choose("[require]\nrun_s = 600\ndrift_arcsec_s = 0.3\n", rules="paper")
+    assert paper.choice["switching"]["interval_s"] == pytest.approx(88.5, abs=0.05)
+    with pytest.raises(zlg.ConfigError, match="run_s = 0"):
+        zlg.design(require="[require]\nrun_s = 0\n")
+
+
 def test_errors_are_told():
     with pytest.raises(zlg.DesignError, match="allowed are corrected"):
         design.optimum(method="best")

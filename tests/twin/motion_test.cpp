@@ -103,6 +103,18 @@ TEST(Motion, StepsAddTheIntegralOfARateThatIsConstantFromStepToStep) {
     EXPECT_EQ(motion.increment_arcsec(2.0, 4.0), 32.0 - 4.0);
 }
 
+TEST(Motion, AStepMayHaveASlope) {
+    // From 1 s on t^2/2 of 8 arcsec/s^2, for 2 s; then 16 arcsec/s.
+    const auto steps =
+        std::make_shared<std::vector<RateStep>>(std::vector<RateStep>{{1.0, 0.0, 8.0}, {3.0, 16.0, 0.0}});
+    const Motion motion = Motion::with_steps(Motion::rest(), steps);
+    EXPECT_EQ(motion.increment_arcsec(0.0, 2.0), 4.0);
+    EXPECT_EQ(motion.increment_arcsec(2.0, 3.0), 16.0 - 4.0);
+    EXPECT_EQ(motion.increment_arcsec(0.0, 4.0), 16.0 + 16.0);
+    EXPECT_EQ(motion.fastest_arcsec_s(), 16.0);
+    EXPECT_EQ(Motion::with_steps(Motion::sines(-3.0, {}), steps).fastest_arcsec_s(), 19.0);
+}
+
 TEST(Motion, BeforeItsFirstStepAMotionIsItsBaseToTheLastBit) {
     const auto steps = std::make_shared<std::vector<RateStep>>(std::vector<RateStep>{{5.0, 1.0}});
     const Motion base = Motion::sines(0.1, {{12000.0, 7.03, 30.0}});

@@ -1,14 +1,19 @@
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <zlg/choice/choice_page.hpp>
+#include <zlg/choice/paper_rules.hpp>
+#include <zlg/logs/error.hpp>
 #include <zlg/study/design_study.hpp>
 
 #include "src/as_json.hpp"
 #include "src/failure.hpp"
 #include "src/fields_json.hpp"
+#include "src/interrupt.hpp"
 #include "src/options.hpp"
 #include "src/output.hpp"
 #include "src/verbs.hpp"
@@ -20,6 +25,8 @@ using nlohmann::json;
 
 struct DesignOptions : Options {
     std::optional<std::string> run_lengths;
+    std::string require;
+    std::string rules;
 };
 
 json interval_json(const study::IntervalLine& l) {
@@ -91,6 +98,61 @@ void design_gyro(const DesignOptions& options) {
     print(options.json ? pretty(result_json(result)) : report::text(page));
 }
 
+// What the options exclude, said before gyros run.
+void check_required(const DesignOptions& options) {
+    if (!options.rules.empty() && options.require.empty())
+        throw UsageError{"--rules paper: is for --require REQUIRE.toml"};
+    if (options.require.empty()) return;
+    if (!options.config_path.empty() || options.run_lengths)
+        throw UsageError{
+            "--require: the requirement holds the gyro and the length of its run; leave out CONFIG and "
+            "--run-lengths"};
+    if (options.out.empty()) return;
+    if (!options.out.ends_with(".html") && !options.out.ends_with(".toml"))
+        throw UsageError{
+            fmt::format("{}: the suffix names no format; allowed are .html, a page, and .toml, what zlg "
+                        "run takes",
+                        options.out)};
+    refuse_own_input(options.require, options.out);
+    if (!options.force && std::filesystem::exists(options.out))
+        throw logs::IoError{fmt::format("{} exists; use --force to overwrite", options.out)};
+}
+
+choice::Answer chosen(const DesignOptions& options, const choice::Requirement& requirement) {
+    if (!options.rules.empty()) return choice::by_paper_rules(requirement);
+    const Interruptible interruptible;
+    interruptible.will_finish();
+    Progress progress;
+    return choice::choose({.requirement = requirement,
+                           .threads = options.threads,
+                           .on_progress = [&](double fraction) { progress.show(fraction); },
+                           .is_stopped = [&] { return interruptible.is_noted(); }});
+}
+
+void design_required(const DesignOptions& options) {
+    std::vector<std::string> sets = options.sets;
+    if (options.seed) sets.push_back("run.seed=" + *options.seed);
+    const choice::Requirement requirement = choice::read_requirement(options.require, sets);
+    const choice::Answer answer = chosen(options, requirement);
+    const report::Page page = options.rules.empty() ? choice::choice_page(requirement, answer)
+                                                    : choice::paper_rules_page(requirement, answer);
+    if (!options.out.empty())
+        write_file(options.out,
+                   options.out.ends_with(".toml") ? choice::toml_text(requirement, answer) : report::html(page),
+                   options.force);
+    print(options.json ? choice::json_text(requirement, answer) : report::text(page));
+    if (answer.is_interrupted)
+        throw logs::IoError{fmt::format("interrupted by a signal; what is known until then is marked: {} gyros tried",
+                                        answer.proof.trials.size())};
+    if (answer.met) return;
+    explain_exit(
+        fmt::format("the requirement cannot be met: the least error that {} of the gyros keep is {:.4g} "
+                    "arcsec, {:.4g} are asked; what binds: {}",
+                    requirement.confidence, answer.least_arcsec, requirement.limit_arcsec(), answer.binding));
+    print_notes();
+    throw CLI::RuntimeError{result_says_no};
+}
+
 }  // namespace
 
 void add_design(CLI::App& program) {
@@ -98,8 +160,16 @@ void add_design(CLI::App& program) {
     CLI::App* verb = program.add_subcommand("design", "drift budget, best interval, substitution errors, loop margins");
     add_config_argument(*verb, *options);
     verb->add_option("--run-lengths", options->run_lengths, "lengths of run, with commas between");
+    verb->add_option("--require", options->require,
+                     "what the gyro must keep, TOML: the simplest choice that does, proved on many gyros");
+    verb->add_option("--rules", options->rules, "paper: by the paper's rules alone")->check(CLI::IsMember({"paper"}));
+    verb->add_option("--seed", options->seed, "seed of all noise (1)");
+    verb->add_option("--threads", options->threads, "1..64 (2)")->check(CLI::Range(1, 64).description(""));
     add_output_options(*verb, *options);
-    verb->callback([options] { design_gyro(*options); });
+    verb->callback([options] {
+        check_required(*options);
+        options->require.empty() ? design_gyro(*options) : design_required(*options);
+    });
 }
 
 }  // namespace zlg::cli

@@ -14,10 +14,11 @@ struct Sine {
     double phase_deg = 0.0;  // rate = amplitude * sin(2 pi frequency t + phase)
 };
 
-// From an instant on the case turns at this rate, until the next step.
+// From an instant on the case turns at this rate, which grows by a slope, until the next step.
 struct RateStep {
     double at_s = 0.0;
     double rate_arcsec_s = 0.0;
+    double slope_arcsec_s2 = 0.0;
 };
 
 class Motion {

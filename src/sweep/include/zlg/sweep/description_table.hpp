@@ -14,6 +14,7 @@
 #include <toml++/toml.h>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/sweep/description.hpp>
 #include <zlg/text/toml_text.hpp>
 
 namespace zlg::sweep {
@@ -65,6 +66,7 @@ public:
         return *table_.get(key);
     }
     [[nodiscard]] const toml::table& table() const { return table_; }
+    [[nodiscard]] std::string_view source_name() const { return source_name_; }
     [[nodiscard]] std::string place() const {
         return fmt::format("{}:{}: [{}]", source_name_, table_.source().begin.line, name_);
     }
@@ -102,5 +104,15 @@ private:
     std::string name_;
     const toml::table& table_;
 };
+
+// errors  config::ConfigError: no TOML: file, line, column.
+[[nodiscard]] toml::table parse_document(std::string_view text, std::string_view source_name);
+
+// What is drawn, from the list of tables [[name]] below the root.
+//
+// base    on which the values are tried.
+// errors  config::ConfigError: no such draw, numbers that make none, a value or key that there is not, a key twice.
+[[nodiscard]] std::vector<Parameter> read_parameters(const Table& root, const std::string& name,
+                                                     const config::Config& base);
 
 }  // namespace zlg::sweep

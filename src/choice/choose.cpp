@@ -1,0 +1,185 @@
+#include <zlg/choice/choose.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <zlg/chance/draw.hpp>
+#include <zlg/config/schema.hpp>
+#include <zlg/numeric/parallel.hpp>
+
+#include "search.hpp"
+#include "verdict.hpp"
+
+namespace zlg::choice {
+namespace {
+
+constexpr std::int64_t common_gyros = 128;
+constexpr double refuted_sigmas = 3.0;
+constexpr std::size_t n_best = 4;  // of those that meet nothing, tried for the least error
+constexpr std::int64_t best_gyros = 32;
+
+// Gyros that no choice has seen.
+std::uint64_t fresh_seed(std::uint64_t seed, std::uint64_t attempt) {
+    return chance::Draw{seed, chance::Cause::sweep_seed, attempt, chance::thing_of("proof")}.bits();
+}
+
+double square_mean(const std::vector<Trial>& trials, std::size_t n) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < std::min(n, trials.size()); ++k) {
+        if (trials[k].state != TrialState::good) continue;
+        sum += trials[k].error_arcsec * trials[k].error_arcsec;
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+// The error that this share of the gyros keeps; infinite where too many are lost.
+double kept_error_arcsec(const Evaluation& e, double share) {
+    std::vector<double> errors;
+    for (const Trial& t : e.trials)
+        errors.push_back(t.state == TrialState::good ? std::abs(t.error_arcsec)
+                                                     : std::numeric_limits<double>::infinity());
+    if (errors.empty()) return std::numeric_limits<double>::infinity();
+    std::ranges::sort(errors);
+    const double place = std::ceil(share * static_cast<double>(errors.size()) - 1e-9);
+    return errors[static_cast<std::size_t>(std::max(place, 1.0)) - 1];
+}
+
+class Choosing {
+public:
+    Choosing(const Task& task, Answer& answer)
+        : task_{task},
+          r_{task.requirement},
+          common_{r_, r_.base.run.seed, common_gyros},
+          forecast_{common_, task.threads, task.is_stopped},
+          search_{task_, forecast_, common_},
+          answer_{answer} {
+        if (search_.all().all.empty())
+            throw config::ConfigError{fmt::format("[require] leaves nothing to choose from{}{}",
+                                                  search_.all().excluded.empty() ? ": no method delivers final values "
+                                                                                   "within delay_s"
+                                                                                 : ": ",
+                                                  fmt::join(search_.all().excluded, " "))};
+    }
+
+    void run() {
+        const bool is_met = prove_one();
+        if (!is_met) prove_the_best();
+        settle();
+        answer_.met = is_met;
+        confirm();
+        if (is_met)
+            answer_.runner_up = search_.runner_up(answer_.proof.candidate.method);
+        else
+            answer_.would_need = needs(task_, answer_.proof.candidate);
+        explain(r_, forecast_, search_.all().excluded, answer_);
+        report(1.0);
+    }
+
+    // What is known when a signal comes.
+    void settle() {
+        answer_.tried = search_.tried();
+        const Evaluation& proof = answer_.proof;
+        const auto n = static_cast<std::int64_t>(proof.trials.size());
+        answer_.gyro = with(r_.base, proof.candidate);
+        answer_.probability = proof.share(limit_);
+        answer_.probability_sigma = sigma_of_share(proof.met(limit_), n);
+        answer_.least_arcsec = kept_error_arcsec(proof, r_.confidence);
+        const auto count = [&](TrialState state) { return std::ranges::count(proof.trials, state, &Trial::state); };
+        answer_.refused = count(TrialState::refused);
+        answer_.lost = count(TrialState::lost);
+    }
+
+private:
+    void report(double fraction) const {
+        if (task_.on_progress) task_.on_progress(fraction);
+    }
+
+    // Of a search nobody knows how long it is.
+    void on_search() {
+        searched_ += 1.0;
+        report(0.4 * searched_ / (searched_ + 20.0));
+    }
+
+    bool prove(const Candidate& candidate, double sigmas) {
+        const Population fresh{r_, fresh_seed(r_.base.run.seed, ++attempts_), r_.gyros};
+        answer_.proof = {candidate, {}};
+        const Tester tester{task_, fresh};
+        return tester.extend(answer_.proof, r_.gyros, sigmas, [&] {
+            report(0.4 + 0.5 * static_cast<double>(answer_.proof.trials.size()) / static_cast<double>(r_.gyros));
+        });
+    }
+
+    bool prove_one() {
+        while (const auto found = search_.next([&] { on_search(); })) {
+            if (!prove(found->candidate, refuted_sigmas)) continue;
+            const auto refused = std::ranges::count(answer_.proof.trials, TrialState::refused, &Trial::state);
+            if (2 * refused < r_.gyros && answer_.proof.share(limit_) >= r_.confidence) return true;
+        }
+        return false;
+    }
+
+    // Of those with the least error by the closed forms, the one with the least on common gyros.
+    void prove_the_best() {
+        const Tester tester{task_, common_};
+        std::optional<Candidate> best;
+        double least = std::numeric_limits<double>::infinity();
+        for (const Candidate& c : search_.best(n_best)) {
+            Evaluation e{c, {}};
+            tester.extend(e, std::min(best_gyros, r_.gyros), std::numeric_limits<double>::infinity(),
+                          [&] { on_search(); });
+            const double kept = kept_error_arcsec(e, r_.confidence);
+            if (best && kept >= least) continue;
+            best = c;
+            least = kept;
+        }
+        prove(*best, std::numeric_limits<double>::infinity());
+    }
+
+    // The first gyros of the proof again, lived half by half.
+    void confirm() {
+        if (fidelity_of(r_) == config::Fidelity::averaged) return;
+        const double halves = 2.0 * r_.run_s / answer_.gyro.gyro.tick_s;
+        const auto n = std::min(r_.gyros, static_cast<std::int64_t>(std::clamp(8e6 / halves, 2.0, 32.0)));
+        const Population same{r_, fresh_seed(r_.base.run.seed, attempts_), r_.gyros};
+        std::vector<Trial> lived(static_cast<std::size_t>(n));
+        numeric::in_parallel(lived.size(), task_.threads, [&](std::size_t k) {
+            lived[k] = same.run(static_cast<std::int64_t>(k), answer_.proof.candidate, config::Fidelity::averaged,
+                                task_.is_stopped);
+        });
+        answer_.lived = n;
+        answer_.lived_met = Evaluation{answer_.proof.candidate, lived}.met(limit_);
+        answer_.lived_rms_arcsec = std::sqrt(square_mean(lived, lived.size()));
+        answer_.proved_rms_arcsec = std::sqrt(square_mean(answer_.proof.trials, answer_.proof.trials.size()));
+    }
+
+    const Task& task_;
+    const Requirement& r_;
+    Population common_;
+    Forecast forecast_;
+    Search search_;
+    Answer& answer_;
+    double limit_ = r_.limit_arcsec();
+    double searched_ = 0.0;
+    std::uint64_t attempts_ = 0;
+};
+
+}  // namespace
+
+Answer choose(const Task& task) {
+    Answer answer;
+    answer.proof.candidate = {.interval_s = task.requirement.run_s};
+    Choosing choosing{task, answer};
+    try {
+        choosing.run();
+    } catch (const Stopped&) {
+        choosing.settle();
+        answer.met = false;
+        answer.is_interrupted = true;
+    }
+    return answer;
+}
+
+}  // namespace zlg::choice

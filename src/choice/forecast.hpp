@@ -1,0 +1,77 @@
+#pragma once
+// What the closed forms say of a candidate before it is tried: they rank and discard.
+//
+//   error at the end = M + a [m odd] + N(0, m s^2 + W^2 t + K^2/6)
+//
+// with M the angle that the alternating magnetic drift leaves (exact), m the switches of the run, s the rms and a the
+// alternating mean of their errors by a short trial, W the random walk, K the worth of a count. What a schedule that
+// measures and the estimate of the magnetic drift leave of M no closed form says: it is taken for nothing, so that
+// only trials discard them.
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include <zlg/choice/trial.hpp>
+#include <zlg/design/magnetic_angle.hpp>
+
+namespace zlg::choice {
+
+// Mean squares over the gyros, arcsec^2, of the parts of the error at the end.
+struct Parts {
+    double magnetic = 0.0;
+    double switches = 0.0;
+    double walk = 0.0;
+    double rounding = 0.0;
+
+    [[nodiscard]] double sum() const { return magnetic + switches + walk + rounding; }
+};
+
+struct SwitchLaw {
+    bool works = false;  // a fair part of the switches was made
+    double rms_arcsec = 0.0;
+    double alternating_arcsec = 0.0;
+};
+
+// Switches before the end of the run.
+[[nodiscard]] std::int64_t switches_until(double run_s, const Candidate& candidate);
+
+// The angle that the magnetic drift leaves at the end of a run, with its sign.
+[[nodiscard]] double magnetic_angle_arcsec(const design::GyroDrift& gyro, double run_s, const Candidate& candidate);
+
+class Forecast {
+public:
+    // population  outlives it.
+    Forecast(const Population& population, int threads, IsStopped is_stopped);
+
+    // Of the gyros that meet the limit.
+    //
+    // rms_ratio  by which the errors of the switches are taken.
+    [[nodiscard]] double chance(const Candidate& candidate, double rms_ratio = 1.0);
+
+    [[nodiscard]] Parts parts(const Candidate& candidate);
+
+    // Of one gyro of this method: rms of a switch over the gyros that were tried.
+    [[nodiscard]] double switch_rms_arcsec(const Method& method);
+
+private:
+    struct Gyro {
+        design::GyroDrift drift;
+        double walk_arcsec_sqrt_s = 0.0;
+        double count_arcsec = 0.0;  // of the configured reading
+    };
+    using Key = std::tuple<core::RelockMethod, core::BridgeMethod, Reading, double>;
+
+    const std::vector<SwitchLaw>& laws(const Method& method);
+    [[nodiscard]] SwitchLaw learnt(std::int64_t number, const Method& method) const;
+    [[nodiscard]] Parts parts_of(const Gyro& gyro, const SwitchLaw& law, const Candidate& candidate) const;
+    const std::vector<Gyro>& gyros(const Method& method);
+
+    const Population& population_;
+    int threads_;
+    IsStopped is_stopped_;
+    std::map<Key, std::vector<SwitchLaw>> laws_;
+    std::map<std::pair<double, Reading>, std::vector<Gyro>> gyros_;
+};
+
+}  // namespace zlg::choice

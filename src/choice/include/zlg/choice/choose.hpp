@@ -1,0 +1,89 @@
+#pragma once
+// The simplest choice that meets a requirement, and its proof.
+//
+// Closed forms rank and discard first; the few candidates that are left are tried in the order of simplicity on common
+// gyros, 8 and 16 of them in pools of four, 64 and 128 one by one, and dropped as soon as they lie two standard
+// deviations below the confidence (successive halving: K. Jamieson, A. Talwalkar, AISTATS 2016, with a fixed
+// threshold). The first whose share is the confidence or more is proved on gyros that no choice has seen. It is met
+// where their share is the confidence or more; the share has the standard deviation of a binomial share with a flat
+// prior. If none meets it, the candidate with the least error is the answer to what can be met.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <zlg/choice/candidate.hpp>
+#include <zlg/choice/trial.hpp>
+
+namespace zlg::choice {
+
+// A candidate and the gyros that it was tried on.
+struct Evaluation {
+    Candidate candidate;
+    std::vector<Trial> trials;
+
+    [[nodiscard]] std::int64_t met(double limit_arcsec) const;
+    [[nodiscard]] double share(double limit_arcsec) const;  // 0 where none was tried
+};
+
+// Standard deviation of a share of n, k of which hold: that of the posterior under a flat prior.
+[[nodiscard]] double sigma_of_share(std::int64_t k, std::int64_t n);
+
+// One constant changed alone, all else as chosen; the interval is chosen anew.
+struct Need {
+    std::vector<std::string> keys;
+    double from = 0.0;  // of the first key
+    double to = 0.0;
+    bool is_enough = false;  // false: no change of this constant alone
+    double share = 0.0;      // of `tried` gyros that then meet it
+    std::int64_t tried = 0;
+    std::string sentence;
+};
+
+struct Part {
+    std::string name;
+    double rms_arcsec = 0.0;  // of the error at the end
+};
+
+struct Answer {
+    bool met = false;
+    bool is_interrupted = false;  // what was known until then
+    double probability = 0.0;     // of meeting the requirement, over the tolerances
+    double probability_sigma = 0.0;
+    std::int64_t refused = 0, lost = 0;                      // of the gyros of the proof
+    config::Config gyro;                                     // the base with what is chosen
+    Evaluation proof;                                        // of the choice
+    double least_arcsec = 0.0;                               // error at the end that `confidence` of the gyros keep
+    std::int64_t lived = 0, lived_met = 0;                   // the first gyros of the proof, every half of them lived
+    double lived_rms_arcsec = 0.0, proved_rms_arcsec = 0.0;  // of the errors of these, both ways
+    std::vector<std::string> reasons;
+    std::vector<Part> parts;                             // of the error at the end
+    std::vector<std::pair<std::string, double>> budget;  // (3) to (7) and what else there is, by name with unit
+    std::string binding;
+    std::optional<Evaluation> runner_up;
+    std::vector<Evaluation> tried;  // in their order
+    std::vector<Need> would_need;   // where it is not met
+};
+
+struct Task {
+    Requirement requirement;
+    int threads = 1;
+    std::function<void(double)> on_progress;  // optional; 0..1
+    IsStopped is_stopped;                     // optional
+};
+
+// The same answer for any number of threads.
+//
+// errors  config::ConfigError where nothing is left to choose from; those of a motion file.
+[[nodiscard]] Answer choose(const Task& task);
+
+// As one JSON object.
+[[nodiscard]] std::string json_text(const Requirement& requirement, const Answer& answer);
+
+// The configuration that `zlg run` takes, with the requirement and the proof as comments.
+[[nodiscard]] std::string toml_text(const Requirement& requirement, const Answer& answer);
+
+}  // namespace zlg::choice

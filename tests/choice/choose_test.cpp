@@ -1,0 +1,113 @@
+#include <zlg/choice/choose.hpp>
+#include <zlg/config/schema.hpp>
+
+#include <numbers>
+
+#include "test.hpp"
+
+namespace zlg::choose_test {
+
+using namespace choice;
+
+// A gyro that moves little, and whose way to the choice is short.
+constexpr const char* small_gyro = R"([motion]
+kind = "constant"
+rate_arcsec_s = 37.3
+[gyro]
+fidelity = "averaged"
+[compensation]
+magnetic = "none"
+[switching]
+schedule = "fixed"
+)";
+
+Requirement required(const std::string& demands) {
+    return parse_requirement("[require]\nrun_s = 40\ngyros = 40\n" + demands + small_gyro, "r.toml");
+}
+
+Answer chosen(const Requirement& r, int threads = 1) { return choose({.requirement = r, .threads = threads}); }
+
+TEST(SigmaOfShare, is_that_of_the_flat_posterior) {
+    // Beta(k + 1, n - k + 1), whose variance is a b/((a + b)^2 (a + b + 1)).
+    EXPECT_DOUBLE_EQ(sigma_of_share(0, 0), std::sqrt(1.0 / 12.0)) << "of an even law";
+    EXPECT_NEAR(sigma_of_share(950, 1000), std::sqrt(0.95 * 0.05 / 1000.0), 1e-4);
+    EXPECT_GT(sigma_of_share(1000, 1000), 0.0);
+}
+
+// Against a search that tries everything that is simpler, on gyros that no choice has seen.
+TEST(Choose, nothing_simpler_meets_it_and_the_probability_holds_on_other_gyros) {
+    const Requirement r = required("angle_error_arcsec = 6\nconfidence = 0.9\n");
+    const Answer a = chosen(r);
+    ASSERT_TRUE(a.met);
+    EXPECT_GE(a.probability, 0.9);
+    ASSERT_EQ(a.proof.trials.size(), 40u);
+    const std::int64_t n = 60;
+    const Population others{r, 0x5eed, n};
+    const auto share = [&](const Candidate& c) {
+        Evaluation e{c, {}};
+        for (std::int64_t k = 0; k < n; ++k) {
+            e.trials.push_back(others.run(k, c, config::Fidelity::averaged, {}));
+            // Enough to know that it falls short.
+            const auto missed = static_cast<std::int64_t>(e.trials.size()) - e.met(6.0);
+            if (missed > 15) break;
+        }
+        return e.trials.size() < static_cast<std::size_t>(n) ? 0.0 : e.share(6.0);
+    };
+    const double sigma = std::hypot(a.probability_sigma, sigma_of_share(static_cast<std::int64_t>(0.9 * n), n));
+    EXPECT_NEAR(share(a.proof.candidate), a.probability, 3.0 * sigma);
+    std::size_t tried = 0;
+    for (const Method& method : methods(r).all) {
+        if (method == a.proof.candidate.method) break;
+        for (const Candidate& c : candidates(r, method)) {
+            if (c.interval_s < 10.0) break;
+            ++tried;
+            EXPECT_LT(share(c), 0.9 + 3.0 * sigma) << in_words(c);
+        }
+    }
+    EXPECT_GT(tried, 0u) << "a choice that is not the first of all";
+}
+
+TEST(Choose, what_cannot_be_met_names_the_least_that_can_and_what_would_have_to_change) {
+    // The random walk alone leaves 0.14 sqrt(40) = 0.89 arcsec.
+    const Requirement r = required("angle_error_arcsec = 0.2\nconfidence = 0.9\n");
+    const Answer a = chosen(r);
+    EXPECT_FALSE(a.met);
+    EXPECT_LT(a.probability, 0.9);
+    EXPECT_GT(a.least_arcsec, 0.89 * 1.2) << "the quantile 0.9 of a normal law, 1.64 sd, and chance";
+    EXPECT_LT(a.least_arcsec, 8.0);
+    EXPECT_FALSE(a.binding.empty());
+    ASSERT_EQ(a.would_need.size(), 7u);
+    for (const Need& need : a.would_need) {
+        EXPECT_FALSE(need.sentence.empty());
+        EXPECT_FALSE(need.is_enough && need.keys[0] == "drift.thermal_time_s") << need.sentence;
+    }
+}
+
+TEST(Choose, the_answer_is_the_same_for_any_number_of_threads) {
+    const Requirement r = required("angle_error_arcsec = 30\nconfidence = 0.8\n");
+    EXPECT_EQ(json_text(r, chosen(r, 1)), json_text(r, chosen(r, 2)));
+}
+
+TEST(Choose, tolerances_that_make_most_gyros_impossible_prove_nothing) {
+    const Requirement r = parse_requirement(
+        std::string{"[require]\nrun_s = 40\ngyros = 30\nangle_error_arcsec = 500\nconfidence = 0.1\n"} + small_gyro +
+            "[[tolerance]]\nkeys = [\"drift.thermal_time_s\"]\ndraw = \"normal\"\nmean = -800\nsd = 1000\n",
+        "r.toml");
+    const Answer a = chosen(r);
+    EXPECT_FALSE(a.met);
+    EXPECT_GT(a.refused, 15);
+    EXPECT_EQ(a.binding, "tolerances that make no gyro");
+}
+
+TEST(Choose, what_is_stopped_is_marked) {
+    const Requirement r = required("angle_error_arcsec = 6\n");
+    const Answer a = choose({.requirement = r, .is_stopped = [] { return true; }});
+    EXPECT_TRUE(a.is_interrupted);
+    EXPECT_FALSE(a.met);
+}
+
+TEST(Choose, a_delay_that_nothing_keeps_leaves_no_choice) {
+    EXPECT_THROW((void)chosen(required("angle_error_arcsec = 6\ndelay_s = 0.01\n")), config::ConfigError);
+}
+
+}  // namespace zlg::choose_test
