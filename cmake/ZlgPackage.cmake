@@ -1,6 +1,7 @@
 # The Debian packages that scripts/package makes: zlg, libzlg-dev and python3-zlg, one for each component but the documents, which
 # are with the program.
 
+# An address below .invalid is none (RFC 2606): whoever hands packages out gives one that is read.
 set(ZLG_MAINTAINER "zlg maintainers <maintainers@zlg.invalid>" CACHE STRING "who answers for the packages")
 
 # What Debian wants beside the files of each package.
@@ -28,10 +29,10 @@ foreach(pair program:zlg development:libzlg-dev python:python3-zlg)
             execute_process(COMMAND gzip -9nc \"${made}/changelog\" OUTPUT_FILE \"\$ENV{DESTDIR}\${folder}/changelog.gz\" COMMAND_ERROR_IS_FATAL ANY)
         endif()" COMPONENT ${component})
 endforeach()
-install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+install(FILES README.md ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc
-    FILES_MATCHING PATTERN *.py PATTERN *.toml PATTERN main.cpp PATTERN CMakeLists.txt)
+    FILES_MATCHING PATTERN *.py PATTERN *.m PATTERN *.toml PATTERN main.cpp PATTERN CMakeLists.txt)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME zlg)

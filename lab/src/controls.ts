@@ -2,13 +2,16 @@
 import { made } from "./elements";
 import type { Key } from "./protocol";
 
-// In the order in which a newcomer meets them.
-const important = [
-    "switching.interval_s", "motion.kind", "motion.amplitude_arcsec_s", "motion.frequency_hz", "motion.rate_arcsec_s",
-    "drift.magnetic_arcsec_s", "drift.magnetic_thermal_arcsec_s", "drift.thermal_time_s", "drift.random_walk_arcsec_sqrt_s", "gyro.fidelity",
-    "compensation.relock", "compensation.bridge", "compensation.magnetic", "perimeter.miss_lambda", "perimeter.tau_s",
-    "perimeter.loop", "gyro.readout", "gyro.light_noise_lambda", "piezo.half_wave_v", "run.seed",
-];
+// In the order in which a newcomer meets them, in words of the trade.
+const important = new Map([
+    ["switching.interval_s", "From switch to switch"], ["motion.kind", "How the case is turned"], ["motion.amplitude_arcsec_s", "Amplitude of the oscillation"],
+    ["motion.frequency_hz", "Its frequency"], ["motion.rate_arcsec_s", "Constant rate"], ["drift.magnetic_arcsec_s", "Magnetic drift at the start"],
+    ["drift.magnetic_thermal_arcsec_s", "Its growth by warming"], ["drift.thermal_time_s", "Time constant of the warming"], ["drift.random_walk_arcsec_sqrt_s", "Random walk of the angle"],
+    ["gyro.fidelity", "Model of the gyro"], ["compensation.relock", "Correction after closing the loop"], ["compensation.bridge", "What fills a gap"],
+    ["compensation.magnetic", "Magnetic drift is"], ["perimeter.miss_lambda", "Detuning when the loop closes"], ["perimeter.tau_s", "Time constant of the loop"],
+    ["perimeter.loop", "Control of the perimeter"], ["gyro.readout", "Readout of the beat"], ["gyro.light_noise_lambda", "Noise of a light sample"],
+    ["piezo.half_wave_v", "Half-wave voltage"], ["run.seed", "Seed of all random numbers"],
+]);
 // A kind of motion that is chosen in the card of recorded motions.
 const recorded = '"file"';
 const is_motion_kind = (key: Key) => key.section === "motion" && key.name === "kind";
@@ -17,7 +20,9 @@ const elsewhere = new Set(["design", "analysis"]);
 
 export class Controls {
     private settings = new Map<string, string>(); // that differ from the defaults, as TOML: as the reader has asked for them
-    private wrong: { key: string; message: string; of_gyro: string | undefined } | null = null; // the one that was refused
+    private readonly refused = new Map<string, string>(); // of these, those that the gyro cannot have as yet, and why
+    private of_gyro = new Map<string, string>();
+    private without_refused = false; // what is asked for now
     private last_key = ""; // that was changed
     private timer = 0;
 
@@ -34,42 +39,55 @@ export class Controls {
     // What the gyro will have, if it can: the next change is made to these.
     expect(settings: string[]): void {
         this.settings = by_key(settings);
-        this.wrong = null;
+        this.of_gyro = by_key(settings);
+        this.refused.clear();
     }
 
-    // What the gyro has, `section.key=value` each.
+    // What the gyro has, `section.key=value` each. What it cannot have as yet waits for the reader's next change.
     set(settings: string[]): void {
+        const waiting = this.without_refused ? [...this.refused].map(([key, message]) => ({ key, message, value: this.settings.get(key) })) : [];
+        this.without_refused = false;
         this.expect(settings);
+        for (const { key, message, value } of waiting) {
+            this.put(key, value);
+            this.refused.set(key, message);
+        }
         if (!this.place.contains(document.activeElement)) this.draw();
         else this.mark();
     }
 
+    // All that the reader wants; where that was refused, without what is to blame.
     list(): string[] {
-        return [...this.settings].map(([key, value]) => `${key}=${value}`);
+        const kept = (key: string) => this.without_refused && this.refused.has(key);
+        const asked = [...this.settings].filter(([key]) => !kept(key));
+        return [...asked, ...[...this.of_gyro].filter(([key]) => kept(key))].map(([key, value]) => `${key}=${value}`);
     }
 
-    // What was asked for was refused, and the gyro keeps what it has. The wrong setting is taken back once the reader changes another one.
+    // What was asked for was refused, and the gyro keeps what it has. Settings that are good together only may come one by one: all are tried
+    // at each change, then those that no refusal has named.
     refuse(message: string, of_gyro: string[]): void {
-        const kept = by_key(of_gyro);
-        const changed = [...new Set([...this.settings.keys(), ...kept.keys()])].filter((key) => this.settings.get(key) !== kept.get(key));
-        const key = changed.find((name) => message.includes(name)) ?? this.last_key;
-        this.wrong = { key, message, of_gyro: kept.get(key) };
+        this.of_gyro = by_key(of_gyro);
+        const asked = by_key(this.list());
+        const changed = [...new Set([...asked.keys(), ...this.of_gyro.keys()])].filter((key) => asked.get(key) !== this.of_gyro.get(key));
+        const had_refused = !this.without_refused && this.refused.size > 0;
+        const fresh = changed.filter((key) => !this.refused.has(key));
+        const named = fresh.filter((key) => message.includes(key));
+        if (!had_refused) this.refused.set(named.includes(this.last_key) ? this.last_key : (named[0] ?? this.last_key), message);
+        this.without_refused = fresh.some((key) => !this.refused.has(key));
+        if (this.without_refused) this.on_change();
         this.mark();
     }
 
-    private take_back(name: string, value: string | undefined): void {
+    private put(name: string, value: string | undefined): void {
         if (value === undefined) this.settings.delete(name);
         else this.settings.set(name, value);
-        const field = this.place.querySelector<HTMLInputElement | HTMLSelectElement>(`[data-key="${name}"] :is(input, select)`);
-        const key = this.keys.find((each) => `${each.section}.${each.name}` === name);
-        if (field !== null && key !== undefined) field.value = bare(key, value ?? key.default);
     }
 
     private chosen(): [string, Key[]][] {
         const words = this.search.value.toLowerCase().split(/\s+/).filter((word) => word !== "");
         const usable = this.keys.filter((key) => !elsewhere.has(key.section) && key.kind !== "column");
         if (words.length === 0) {
-            const found = important.map((name) => usable.find((key) => `${key.section}.${key.name}` === name)).filter((key) => key !== undefined);
+            const found = [...important.keys()].map((name) => usable.find((key) => `${key.section}.${key.name}` === name)).filter((key) => key !== undefined);
             return [["", found]];
         }
         const sections = new Map<string, Key[]>();
@@ -95,7 +113,8 @@ export class Controls {
         const name = `${key.section}.${key.name}`;
         const box = made("div", "", { class: "control", "data-key": name });
         const id = `control-${name.replace(".", "-")}`;
-        const label = made("label", name, { for: id });
+        const words = important.get(name) ?? key.meaning.replace(/[;:].*/, "");
+        const label = made("label", words, { for: id, title: name });
         if (key.unit) label.append(made("span", ` ${key.unit}`, { class: "unit" }));
         const value = this.settings.get(name) ?? key.default;
         const field = key.choices.length > 0 && key.kind !== "choices" ? choice(key, value) : text_field(value);
@@ -106,12 +125,14 @@ export class Controls {
             this.change(key, field.value);
         });
         if (field instanceof HTMLInputElement) field.addEventListener("input", () => this.change_soon(key, field.value));
-        const reset = made("button", "↺", { type: "button", "aria-label": `${name} back to its default` });
+        const reset = made("button", "↺", { type: "button", "aria-label": `${words}: back to the default` });
         reset.addEventListener("click", () => {
             field.value = bare(key, key.default);
             this.change(key, field.value);
         });
-        const help = made("small", `${key.meaning}. Allowed: ${allowed_here(key)}`, { id: `${id}-help` });
+        // Who searches looks for names of a configuration as well; who does not is told nothing of them.
+        const meaning = this.search.value === "" ? key.meaning.replace(/[;,][^;,]*[a-z][._][a-z].*/, "") : `${name}: ${key.meaning}`;
+        const help = made("small", `${meaning}. Allowed: ${allowed_here(key)}`, { id: `${id}-help` });
         box.append(label, field, reset, help, made("small", "", { class: "wrong" }));
         return box;
     }
@@ -126,13 +147,11 @@ export class Controls {
         clearTimeout(this.timer);
         const name = `${key.section}.${key.name}`;
         const before = this.settings.get(name) ?? bare(key, key.default);
-        const is_other = this.wrong !== null && this.wrong.key !== name;
-        if (text === before && !is_other) return;
-        if (is_other) this.take_back(this.wrong!.key, this.wrong!.of_gyro);
-        this.wrong = null;
+        if (text === before) return;
+        this.refused.delete(name);
+        this.without_refused = false;
         this.last_key = name;
-        if (text === "" || text === bare(key, key.default)) this.settings.delete(name);
-        else this.settings.set(name, text);
+        this.put(name, text === "" || text === bare(key, key.default) ? undefined : text);
         this.on_change();
     }
 
@@ -140,8 +159,7 @@ export class Controls {
         for (const box of this.place.querySelectorAll<HTMLElement>(".control")) {
             const name = box.dataset.key!;
             box.classList.toggle("changed", this.settings.has(name));
-            const message = this.wrong?.key === name ? this.wrong.message : "";
-            box.querySelector(".wrong")!.textContent = message;
+            box.querySelector(".wrong")!.textContent = this.refused.get(name) ?? "";
         }
     }
 }
@@ -178,7 +196,7 @@ function choice(key: Key, value: string): HTMLSelectElement {
     const field = document.createElement("select");
     const choices = is_motion_kind(key) && value !== recorded ? key.choices.filter((name) => `"${name}"` !== recorded) : key.choices;
     const names = key.kind === "optional_choice" ? ["", ...choices] : choices;
-    for (const name of names) field.add(new Option(name === "" ? "unset" : name, name));
+    for (const name of names) field.add(new Option(name === "" ? "unset" : name.replaceAll("_", " "), name));
     field.value = bare(key, value);
     return field;
 }

@@ -69,8 +69,8 @@ function card(title: string, ...content: HTMLElement[]): HTMLElement {
     return section;
 }
 
-function column(wide: boolean, ...cards: HTMLElement[]): HTMLElement {
-    const place = made("div", "", { class: wide ? "column wide" : "column" });
+function column(...cards: HTMLElement[]): HTMLElement {
+    const place = made("div", "", { class: "column" });
     place.append(...cards);
     return place;
 }
@@ -129,9 +129,8 @@ class LivePage {
         choice.append(this.window_s);
         const { places } = this;
         document.querySelector("main")!.replaceChildren(
-            column(false, card("The gyro now", this.values), this.health_card, card("Flags of the ticks", made("p", "Raised since the start."), this.flags_place)),
-            column(true, card("Angle", places.angle), card("Signals", choice, places.rate, places.detuning, places.piezo, places.mode)),
-            column(false, card("The last gap, magnified", this.gap_text, places.gap), card("Allan deviation", made("p", "Of the rate, its turns included."), places.allan)),
+            column(card("The gyro now", this.values), this.health_card, card("Flags of the ticks", made("p", "Raised since the start."), this.flags_place)),
+            column(card("Angle", places.angle), card("Signals", choice, places.rate, places.detuning, places.piezo, places.mode), card("The last gap, magnified", this.gap_text, places.gap), card("Allan deviation", made("p", "Of the rate, its turns included."), places.allan)),
         );
         document.querySelector("footer p")!.textContent = "The records come from zlg on this machine; no other request leaves this page.";
         this.say("waiting");

@@ -22,6 +22,9 @@ import { share_dialog } from "./share";
 import { type Step, Tour } from "./tour";
 import { Views } from "./views";
 
+// The gyro of a page that is opened without one: it switches often, and begins where it has done so in either direction.
+const first_fragment = "#switching.interval_s=4";
+const first_time_s = 8.5;
 const longest_repeat_s = 120; // of a gyro that is changed while it runs: later it begins again
 
 interface Asked {
@@ -82,14 +85,16 @@ class Lab {
         this.flag_names = schema.angle_flags;
         this.keys = schema.keys;
         this.send_speed();
-        this.open_link();
+        const has_none = location.hash === "";
+        if (has_none) history.replaceState(null, "", first_fragment);
+        this.open_link(has_none ? first_time_s : 0);
     }
 
-    private open_link(): void {
+    private open_link(from_s = 0): void {
         this.from_link = true;
         try {
             const wanted = parse_fragment(location.hash);
-            this.begin(wanted.settings, { until_s: wanted.until_s, fault: null });
+            this.begin(wanted.settings, { until_s: wanted.until_s, from_s, fault: null });
         } catch (error) {
             this.refuse((error as Error).message, true);
         }

@@ -111,7 +111,7 @@ class Site(unittest.TestCase):
     def test_it_holds_the_lab_page_of_the_build(self):
         lab = ROOT / "build" / "release" / "share" / "zlg" / "lab.html"
         if not lab.exists():
-            self.skipTest("the build holds no lab page: scripts/install lab")
+            self.skipTest("the build holds no lab page: scripts/lab")
         self.assertEqual((self.site / "docs" / "lab_page.html").read_bytes(), lab.read_bytes())
         self.assertIn("lab_page.html", self.pages[self.site / "docs" / "lab.html"].leads)
 

@@ -1,9 +1,11 @@
 """What `cmake --install` puts into a prefix, used as a stranger's project would use it."""
 
 import os
+import re
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -132,3 +134,34 @@ class Subdirectory(unittest.TestCase):
             commands = run("ninja", "-C", source / "build", "-t", "commands", "CMakeFiles/outer.dir/main.cpp.o")
             self.assertIn("-std=c++20", commands.replace("gnu++20", "c++20"))
             self.assertNotIn("-Werror", run("ninja", "-C", source / "build", "-t", "commands", "zlg_core"))
+
+
+@unittest.skipUnless(shutil.which("cpack") and shutil.which("dpkg-deb"), "there are no tools of Debian packages")
+class Package(unittest.TestCase):
+    """Of the documents of the Debian package: packing the program as well would want its build."""
+
+    def packed(self):
+        folder = Path(tempfile.mkdtemp(prefix="zlg-package-"))
+        self.addCleanup(shutil.rmtree, folder)
+        run("cpack", "-G", "DEB", "-D", "CPACK_COMPONENTS_ALL=doc", "-B", folder, cwd=BUILD, env={**os.environ, "SOURCE_DATE_EPOCH": "1700000000"})
+        return next(folder.glob("*.deb"))
+
+    def test_what_is_packed_twice_is_equal(self):
+        first = self.packed().read_bytes()
+        time.sleep(1.1)  # times of files are whole seconds
+        (BUILD / "package" / "changelog").touch()
+        self.assertEqual(first, self.packed().read_bytes())
+
+    def test_it_holds_every_file_that_its_documents_lead_to(self):
+        folder = Path(tempfile.mkdtemp(prefix="zlg-unpacked-"))
+        self.addCleanup(shutil.rmtree, folder)
+        run("dpkg-deb", "--extract", self.packed(), folder)
+        root = folder / "usr" / "share" / "doc" / "zlg"
+        missing = set()
+        for page in root.rglob("*.md"):
+            text = page.read_text()
+            links = [page.parent / link for link in re.findall(r"\]\((?!https?:)([^)#:\s]+)", text)]
+            named = [root / name for name in re.findall(r"examples/\w+(?:\.\w+)?", text)]
+            missing |= {str(path.resolve().relative_to(root.resolve())) for path in links + named if not path.exists()}
+        # In a Debian package the licence stands in the file copyright; of the tests the package holds nothing.
+        self.assertEqual(missing, {"LICENSE", "tests/regressions.md"})

@@ -35,10 +35,8 @@ std::string lab_page() {
     const std::filesystem::path path = (folder / "../share/zlg/lab.html").lexically_normal();
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
-        throw logs::IoError{
-            fmt::format("this build holds no lab page: {} is not a file; `scripts/install lab` installs what makes it "
-                        "with the program",
-                        path.string())};
+        throw logs::IoError{fmt::format(
+            "this build holds no lab page: {} is not a file; `scripts/lab` of the sources makes it", path.string())};
     try {
         return text::read_whole(path, longest_page);
     } catch (const text::CannotRead& reason) {
