@@ -1,9 +1,8 @@
 #include <cmath>
 
-#include <zlg/deviations/angle_samples.hpp>
+#include <zlg/core/records.hpp>
 #include <zlg/deviations/averaging.hpp>
 #include <zlg/deviations/deviation.hpp>
-#include <zlg/deviations/deviation_stream.hpp>
 
 #include "analysis_dicts.hpp"
 #include "bind.hpp"
@@ -62,56 +61,6 @@ py::dict deviation_of(const std::string& kind, const Samples& samples, const Tau
     }));
 }
 
-StreamConfig stream_config(const SeriesKind& what, const std::vector<std::string>& kinds,
-                           const std::vector<std::int64_t>& factors, std::int64_t window, double least_known_ratio) {
-    StreamConfig config{
-        .what = what, .kinds = {}, .factors = factors, .window = window, .least_known_ratio = least_known_ratio};
-    for (const std::string& kind : kinds) config.kinds.push_back(deviation_kind_of(kind));
-    return config;
-}
-
-// An angle log through a stream: memory does not grow with the log.
-DeviationStream stream_of_log(const std::string& path, const std::vector<std::string>& kinds,
-                              const std::vector<std::int64_t>& factors, std::int64_t window, double least_known_ratio,
-                              bool final_angles) {
-    const AngleSamples samples = angle_samples(path, final_angles ? AngleColumn::dtheta_final : AngleColumn::dtheta);
-    DeviationStream stream{stream_config(samples.what, kinds, factors, window, least_known_ratio)};
-    read_into(stream, [&](std::span<double> values, std::span<std::uint8_t> valid) {
-        look_for_signals();
-        return samples.source(values, valid);
-    });
-    return stream;
-}
-
-void bind_stream(py::module_& m) {
-    py::class_<DeviationStream>(m, "DeviationStream")
-        .def(py::init([](double rate_hz, const std::string& data_type, const std::string& unit,
-                         const std::vector<std::string>& kinds, const std::vector<std::int64_t>& factors,
-                         std::int64_t window, double least_known_ratio) {
-                 return DeviationStream{stream_config({data_kind_of(data_type), unit_of(unit), rate_hz}, kinds, factors,
-                                                      window, least_known_ratio)};
-             }),
-             "rate_hz"_a, "data_type"_a, "unit"_a, "kinds"_a, "factors"_a, "window"_a, "least_known_ratio"_a)
-        .def_static("of_log", &stream_of_log, py::call_guard<py::gil_scoped_release>(), "path"_a, "kinds"_a,
-                    "factors"_a, "window"_a, "least_known_ratio"_a, "final_angles"_a)
-        // Not without the interpreter: another thread may read the curve meanwhile.
-        .def(
-            "add",
-            [](DeviationStream& stream, const In<double>& values, const std::optional<In<std::uint8_t>>& valid) {
-                stream.add(span_of(values, "data"), span_of(valid, "valid"));
-            },
-            "values"_a, "valid"_a)
-        .def(
-            "curve",
-            [](const DeviationStream& stream, const std::string& kind, double confidence, std::optional<int> noise) {
-                return dict_of(stream.curve(deviation_kind_of(kind), {.confidence = confidence, .noise = noise}));
-            },
-            "kind"_a, "confidence"_a, "noise"_a)
-        .def_property_readonly("n_samples", &DeviationStream::n_samples)
-        .def_property_readonly("n_known", &DeviationStream::n_known)
-        .def_property_readonly("memory_bytes", &DeviationStream::memory_bytes);
-}
-
 }  // namespace
 
 void bind_deviations(py::module_& m) {
@@ -132,8 +81,9 @@ void bind_deviations(py::module_& m) {
              }),
              "confidence"_a, "least_known_ratio"_a, "noise"_a, "bias"_a, "threads"_a);
     m.def("deviation", &deviation_of, "kind"_a, "samples"_a, "taus"_a, "per_decade"_a, "drop_long_taus"_a, "options"_a);
-    m.attr("not_measured") = not_measured;
-    bind_stream(m);
+    // Angles that were bridged, guessed or distrusted are no measurements of the gyro's noise.
+    m.attr("not_measured") = core::flag_extrapolated | core::flag_interpolated | core::flag_unrepaired |
+                             core::flag_loop_unlocked | core::flag_invalid | core::flag_mode_mixed;
 }
 
 }  // namespace zlg::python

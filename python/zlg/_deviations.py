@@ -1,8 +1,7 @@
-"""Allan deviation and its kin, of arrays, of logs and as a stream; public by `zlg.analysis`."""
+"""Allan deviation and its kin, of arrays and of logs; public by `zlg.analysis`."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple, Optional, Protocol, Union
@@ -16,7 +15,7 @@ from ._shown import Columns, axes_of
 from .logs import AngleLog
 
 __all__ = [
-    "Deviations", "DeviationStream", "KINDS", "adev", "deviation", "deviations_of_log", "hdev", "htotdev",
+    "Deviations", "KINDS", "adev", "deviation", "deviations_of_log", "hdev", "htotdev",
     "mdev", "mtotdev", "oadev", "ohdev", "tdev", "totdev",
 ]  # fmt: skip
 
@@ -169,57 +168,3 @@ def deviations_of_log(
         kind, data, rate_hz=1.0 / log.tick_s, data_type="increments", unit="arcsec", valid=log.measured, taus=taus,
         confidence=confidence, threads=threads,
     )  # fmt: skip
-
-
-class DeviationStream:
-    """Deviations of a stream of any length in bounded memory: oadev, mdev, tdev, ohdev.
-
-    factors  averaging factors m; over `window`, a power of two from 64, they are rounded to a multiple of their stride
-    Raises SeriesError.
-    """
-
-    def __init__(
-        self, *, rate_hz: float, data_type: DataType, unit: Unit, kinds: Sequence[str] = ("oadev",),
-        factors: Sequence[int], window: int = 1 << 14, least_known_ratio: float = 0.9,
-    ) -> None:  # fmt: skip
-        self._stream = _zlg.DeviationStream(
-            rate_hz, data_type, unit, list(kinds), list(factors), window, least_known_ratio
-        )
-
-    @classmethod
-    def of_log(
-        cls, path: Union[str, os.PathLike[str]], *, kinds: Sequence[str] = ("oadev",), factors: Sequence[int],
-        window: int = 1 << 14, least_known_ratio: float = 0.9, angles: Literal["final", "delivered"] = "final",
-    ) -> DeviationStream:  # fmt: skip
-        """The stream of an angle log's increments; memory does not grow with the log, Ctrl-C ends it.
-
-        Raises IoError, FormatError, SeriesError.
-        """
-        made = cls.__new__(cls)
-        made._stream = _zlg.DeviationStream.of_log(
-            os.fspath(path), list(kinds), list(factors), window, least_known_ratio, angles == "final"
-        )
-        return made
-
-    def add(self, data: ArrayLike, valid: Optional[ArrayLike] = None) -> None:
-        """The samples that follow, shape (samples,). Raises SeriesError."""
-        self._stream.add(floats(data), mask(valid))
-
-    def curve(self, kind: str = "oadev", *, confidence: float = 0.6827, noise: Optional[int] = None) -> Deviations:
-        """What is known by now. Raises SeriesError: no tau with a term yet."""
-        return made_of(Deviations, self._stream.curve(kind, confidence, noise))
-
-    @property
-    def n_samples(self) -> int:
-        """Samples so far."""
-        return self._stream.n_samples
-
-    @property
-    def n_known(self) -> int:
-        """Of them not missing."""
-        return self._stream.n_known
-
-    @property
-    def memory_bytes(self) -> int:
-        """What the stream holds; it does not grow."""
-        return self._stream.memory_bytes

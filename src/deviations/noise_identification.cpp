@@ -20,7 +20,7 @@ std::optional<NoiseStep> step_of(const RecordView& view, std::int64_t m) {
         for (std::int64_t k = first; k < first + length; ++k) means.add(view, k * m);
         means.interrupt();
     }
-    const auto noise = means.exponent(m);
+    const auto noise = means.exponent();
     return noise ? std::optional{NoiseStep{.m = m, .means = means.count(), .noise = *noise}} : std::nullopt;
 }
 

@@ -86,13 +86,9 @@ void NoiseMeans::interrupt() {
 }
 
 void NoiseMeans::add(const RecordView& view, std::int64_t i) {
-    const std::int64_t intervals = m_ * view.stride;
-    double known = static_cast<double>(intervals);
-    if (view.known != nullptr) known = static_cast<double>(view.known[i + m_] - view.known[i]);
-    if (view.known_real != nullptr) known = view.known_real[i + m_] - view.known_real[i];
-    has_gaps_ = has_gaps_ || view.has_counts();
-    rate_.add(known >= min_known(intervals, view.least_known_ratio) ? (view.angle[i + m_] - view.angle[i]) / known
-                                                                    : missing);
+    has_gaps_ = view.known != nullptr;
+    const double known = static_cast<double>(has_gaps_ ? view.known[i + m_] - view.known[i] : m_);
+    rate_.add(known >= min_known(m_, view.least_known_ratio) ? (view.angle[i + m_] - view.angle[i]) / known : missing);
     if (has_gaps_) return;
     const std::int64_t n = std::min(m_, max_angles);
     double sum = 0.0;
@@ -100,12 +96,11 @@ void NoiseMeans::add(const RecordView& view, std::int64_t i) {
     angle_.add(sum / static_cast<double>(n));
 }
 
-std::optional<double> NoiseMeans::exponent(std::int64_t m_intervals) const {
+std::optional<double> NoiseMeans::exponent() const {
     const auto rate = rate_.exponent();
     if (!rate) return std::nullopt;
     double noise = straight(of_rates, *rate);
-    if (const auto angle = has_gaps_ || m_intervals == 1 ? std::nullopt : angle_.exponent();
-        angle && noise > angle_noise_from)
+    if (const auto angle = has_gaps_ || m_ == 1 ? std::nullopt : angle_.exponent(); angle && noise > angle_noise_from)
         noise = straight(of_angles, *angle + 2.0);
     return noise;
 }

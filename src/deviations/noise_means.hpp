@@ -1,5 +1,5 @@
 #pragma once
-// The exponent of noise from means, side by side, of a record or a stream.
+// The exponent of noise from means, side by side, of a record.
 
 #include <array>
 #include <cstddef>
@@ -42,7 +42,7 @@ private:
     std::array<Level, 3> level_;
 };
 
-// Means over m entries, side by side, as noise identification takes them from a record or a stream.
+// Means over m entries, side by side, as noise identification takes them.
 class NoiseMeans {
 public:
     // m  entries of the array.
@@ -53,10 +53,9 @@ public:
     // What follows is no neighbour of what came before.
     void interrupt();
 
-    [[nodiscard]] std::int64_t m() const { return m_; }
     [[nodiscard]] std::int64_t count() const { return rate_.count(); }
-    // Of the rate's spectrum, absent where LagOne has none. m_intervals  the averaging in intervals of the record.
-    [[nodiscard]] std::optional<double> exponent(std::int64_t m_intervals) const;
+    // Of the rate's spectrum, absent where LagOne has none.
+    [[nodiscard]] std::optional<double> exponent() const;
 
 private:
     std::int64_t m_;

@@ -13,9 +13,9 @@
 
 #include <zlg/core/compensation/angle.hpp>
 #include <zlg/core/health.hpp>
-#include <zlg/deviations/deviation_stream.hpp>
 
 #include "kept_records.hpp"
+#include "octave_allan.hpp"
 
 namespace zlg::live {
 namespace {
@@ -23,8 +23,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t history_points = 1024;
-constexpr int octaves = 31;                  // of averaging times
-constexpr std::int64_t allan_window = 1024;  // ticks, of whose averagings every start is used
 
 struct Row {
     Record record;
@@ -45,30 +43,6 @@ struct Copied {
     std::vector<double> history;
     std::int64_t history_stride = 1;
 };
-
-deviations::DeviationStream allan_stream(double tick_s) {
-    deviations::StreamConfig config{
-        .what = {.kind = deviations::DataKind::increments, .unit = deviations::Unit::arcsec, .rate_hz = 1.0 / tick_s},
-        .kinds = {deviations::DeviationKind::oadev},
-        .factors = {},
-        .window = allan_window};
-    for (int k = 0; k < octaves; ++k) config.factors.push_back(std::int64_t{1} << k);
-    return deviations::DeviationStream{config};
-}
-
-json allan_json(const deviations::DeviationStream& stream) {
-    json taus = json::array();
-    json values = json::array();
-    try {
-        for (const deviations::DeviationPoint& point : stream.curve(deviations::DeviationKind::oadev).points) {
-            taus.push_back(point.tau_s);
-            values.push_back(point.deviation);
-        }
-    } catch (const deviations::SeriesError&) {
-        // Too few ticks for any.
-    }
-    return {std::move(taus), std::move(values)};
-}
 
 // In the shortest form that reads back; null where JSON has no such number.
 void put(fmt::memory_buffer& out, double value) {
@@ -144,7 +118,7 @@ struct RecordBook::State {
     std::uint32_t health = 0;
     GapFinder gaps;
     Thinned<double, history_points> history;
-    std::optional<deviations::DeviationStream> allan;
+    OctaveAllan allan;
 
     [[nodiscard]] bool is_due(std::int64_t from_row) const;
     [[nodiscard]] Copied copy(Position from) const;
@@ -166,8 +140,8 @@ Copied RecordBook::State::copy(Position from) const {
         copied.rows.push_back(rows[static_cast<std::size_t>(row % kept_rows)]);
     const std::optional<GapView>& gap = gaps.newest();
     if (gap && (copied.is_snapshot || gap->end_row > from.next_row)) copied.gap = gap;
-    if (allan && (copied.is_snapshot || is_due(from.next_row) || (is_ended && !from.knows_end)))
-        copied.allan = allan_json(*allan);
+    if (tick_s && (copied.is_snapshot || is_due(from.next_row) || (is_ended && !from.knows_end)))
+        copied.allan = allan.points(*tick_s);
     if (copied.is_snapshot) {
         copied.history = history.kept();
         copied.history_stride = history.stride();
@@ -185,18 +159,14 @@ RecordBook::~RecordBook() = default;
 void RecordBook::add(const Record& record, double tick_s) {
     State& s = *state_;
     const std::scoped_lock lock{s.mutex};
-    if (!s.tick_s) {
-        s.tick_s = tick_s;
-        s.allan.emplace(allan_stream(tick_s));
-    }
+    if (!s.tick_s) s.tick_s = tick_s;
     s.angle_arcsec.add(record.angle.dtheta_final_arcsec);
     s.rows[static_cast<std::size_t>(s.n_rows % kept_rows)] = {record, s.angle_arcsec.value()};
     s.flags |= record.angle.flags;
     s.health |= record.health;
     s.gaps.take(s.n_rows, record.angle);
     s.history.add(s.angle_arcsec.value());
-    const double increment_arcsec = record.angle.dtheta_final_arcsec;
-    s.allan->add({&increment_arcsec, 1});
+    s.allan.add(s.angle_arcsec.value());
     ++s.n_rows;
 }
 

@@ -75,9 +75,6 @@ def test_masked_samples_are_missing():
     assert np.array_equal(by_mask.devs, by_valid.devs) and np.array_equal(masked_valid.devs, by_valid.devs)
     counts = np.ma.masked_array(np.arange(1000) ** 2, missing)
     assert analysis.oadev(counts, 1.0, "rate", [1.0]).ns[0] == by_valid.ns[0] == 988  # 999 pairs less 11
-    stream = analysis.DeviationStream(rate_hz=1.0, data_type="rate", unit="1", factors=[1])
-    stream.add(np.ma.masked_array(rates, missing))
-    assert stream.n_known == 990
 
 
 @pytest.mark.parametrize("valid", [[1.0, np.nan, 1.0], [1, 2, 1], ["a", "b", "c"]])
@@ -124,26 +121,6 @@ def test_arrays_are_read_where_they_are():
     tracemalloc.stop()
     assert peak < 500_000  # bytes; a copy would take 8 000 000
     assert not d.deviation.flags.owndata  # the memory is that of C++
-
-
-def test_a_stream_is_the_record(tmp_path):
-    data = np.random.default_rng(5).normal(size=10_000)
-    said = {"rate_hz": 10.0, "data_type": "rate", "unit": "deg/h"}
-    stream = analysis.DeviationStream(**said, factors=[1, 8, 64])
-    for piece in np.array_split(data, 7):
-        stream.add(piece)
-    whole = analysis.deviation("oadev", data, taus=[0.1, 0.8, 6.4], **said)
-    assert np.allclose(stream.curve().deviation, whole.deviation, rtol=1e-12)
-    assert stream.n_samples == stream.n_known == 10_000 and stream.memory_bytes > 0
-
-
-def test_a_stream_of_a_log(tmp_path):
-    result = zlg.run(zlg.Config.of("run.duration_s=60", "switching.interval_s=10"))
-    zlg.logs.write_angles(tmp_path / "angles.h5", result.angles)
-    stream = analysis.DeviationStream.of_log(tmp_path / "angles.h5", factors=[1, 16, 256])
-    whole = analysis.deviations_of_log(result.angles, taus=[0.005, 0.08, 1.28])
-    assert np.allclose(stream.curve().deviation, whole.deviation, rtol=1e-10)
-    assert stream.n_known == result.angles.measured.sum() < len(result.angles)
 
 
 def test_white_noise_is_found_with_its_error():

@@ -61,13 +61,13 @@ double remaining_squares(const double* a, std::int64_t m, std::int64_t n, double
     return squares;
 }
 
-TermSum sum_without_gaps(const double* a, std::int64_t m, std::int64_t n, std::int64_t stride) {
+TermSum sum_without_gaps(const double* a, std::int64_t m, std::int64_t n) {
     double d = sum_of_second_differences(a, m);
     // The last start has nothing behind it.
     const std::int64_t eights = (n - 1) / width * width;
     double squares = squares_of_eights(a, m, eights, d);
     squares += remaining_squares(a + eights, m, n - eights, d);
-    const double whole = static_cast<double>(m * stride);
+    const double whole = static_cast<double>(m);
     return {squares / (whole * whole * whole * whole), n};
 }
 
@@ -84,9 +84,7 @@ struct Turned {
 
     void add(MovingWindow& window, std::int64_t i, double sign) const {
         window.sum += sign * (view.angle[i + m] - view.angle[i]);
-        window.known +=
-            sign * (view.known != nullptr ? static_cast<double>(view.known[i + m]) - static_cast<double>(view.known[i])
-                                          : view.known_real[i + m] - view.known_real[i]);
+        window.known += sign * (static_cast<double>(view.known[i + m]) - static_cast<double>(view.known[i]));
     }
     [[nodiscard]] MovingWindow whole(std::int64_t begin) const {
         MovingWindow window;
@@ -97,7 +95,7 @@ struct Turned {
 
 TermSum sum_of_weighted_means(const RecordView& view, std::int64_t m, std::int64_t begin, std::int64_t end) {
     const Turned turned{view, m};
-    const double whole = static_cast<double>(m * view.stride);
+    const double whole = static_cast<double>(m);
     const double least = view.least_known_ratio * whole * whole * (1.0 - 1e-12);
     auto early = turned.whole(begin), late = turned.whole(begin + m);
     TermSum total;
@@ -127,12 +125,11 @@ TermSum sum_of_known_phase(const RecordView& view, std::int64_t m, std::int64_t 
     };
     for (std::int64_t j = begin; j < begin + m; ++j) move(j, true);
     const double least = min_known(m, view.least_known_ratio);
-    const double whole = static_cast<double>(m * view.stride);
+    const double whole = static_cast<double>(m);
     TermSum total;
     for (std::int64_t i = begin; i < end; ++i) {
         if (window.known >= least) {
-            // An entry is itself a sum of `stride` angles.
-            const double d = window.sum / (window.known * static_cast<double>(view.stride) * whole);
+            const double d = window.sum / (window.known * whole);
             total.add({d * d, 1});
         }
         if (i + 1 == end) break;
@@ -147,9 +144,9 @@ TermSum sum_of_known_phase(const RecordView& view, std::int64_t m, std::int64_t 
 TermSum averaged_sum(const RecordView& view, std::int64_t m, std::int64_t begin, std::int64_t end) {
     const std::int64_t last = std::min(end, view.n_intervals - 3 * m + 2);
     if (last <= begin) return {};
-    if (view.has_counts()) return sum_of_weighted_means(view, m, begin, last);
+    if (view.known != nullptr) return sum_of_weighted_means(view, m, begin, last);
     if (view.may_be_missing) return sum_of_known_phase(view, m, begin, last);
-    return sum_without_gaps(view.angle + begin, m, last - begin, view.stride);
+    return sum_without_gaps(view.angle + begin, m, last - begin);
 }
 
 std::vector<TermSum> averaged_sums(const RecordView& view, std::span<const std::int64_t> factors, int threads) {

@@ -9,6 +9,8 @@
 namespace zlg::deviations {
 namespace {
 
+// Terms that are summed at once: what averaging times share stays in the cache.
+constexpr std::int64_t block_starts = 4096;
 constexpr std::int64_t chunk_starts = 16 * block_starts;  // of one thread
 
 // Of the angle, between entries m apart.
@@ -52,18 +54,16 @@ ZLG_VECTOR_WIDTHS TermSum squares_of(const double* a, bool may_be_missing, int o
 ZLG_INLINE double between(std::uint32_t before, std::uint32_t after) {
     return static_cast<std::int32_t>(after - before);
 }
-ZLG_INLINE double between(double before, double after) { return after - before; }
 
 // Means of what is known in each window; times 2/m over 1/n1 + 1/n2, so that white noise keeps its expectation.
-//
-// whole  intervals in a window of m entries.
-template <int order, class Count>
-ZLG_INLINE TermSum squares_of_means(const double* a, const Count* p, std::int64_t m, std::int64_t n, double least,
-                                    double whole) {
+template <int order>
+ZLG_INLINE TermSum squares_of_means(const double* a, const std::uint32_t* p, std::int64_t m, std::int64_t n,
+                                    double least) {
+    const auto whole = static_cast<double>(m);
     const double* b = a + m;
     const double* c = b + m;
-    const Count* q = p + m;
-    const Count* r = q + m;
+    const std::uint32_t* q = p + m;
+    const std::uint32_t* r = q + m;
     const auto sums = lane_sums(
         n, [=](std::int64_t i, double& square, double& one) __attribute__((always_inline)) {
             const double n1 = between(p[i], q[i]), n2 = between(q[i], r[i]);
@@ -85,13 +85,8 @@ ZLG_INLINE TermSum squares_of_means(const double* a, const Count* p, std::int64_
 }
 
 ZLG_VECTOR_WIDTHS TermSum squares_of_means(const double* a, const std::uint32_t* p, int order, std::int64_t m,
-                                           std::int64_t n, double least, double whole) {
-    return order == 2 ? squares_of_means<2>(a, p, m, n, least, whole) : squares_of_means<3>(a, p, m, n, least, whole);
-}
-
-ZLG_VECTOR_WIDTHS TermSum squares_of_means_in_stream(const double* a, const double* p, int order, std::int64_t m,
-                                                     std::int64_t n, double least, double whole) {
-    return order == 2 ? squares_of_means<2>(a, p, m, n, least, whole) : squares_of_means<3>(a, p, m, n, least, whole);
+                                           std::int64_t n, double least) {
+    return order == 2 ? squares_of_means<2>(a, p, m, n, least) : squares_of_means<3>(a, p, m, n, least);
 }
 
 }  // namespace
@@ -113,12 +108,10 @@ TermSum difference_sum(const RecordView& view, int order, std::int64_t m, std::i
     const std::int64_t n = std::min(end, view.n_intervals - order * m + 1) - begin;
     if (n <= 0) return {};
     const double* a = view.angle + begin;
-    const std::int64_t intervals = m * view.stride;
-    const double least = min_known(intervals, view.least_known_ratio), whole = static_cast<double>(intervals);
-    if (view.known != nullptr) return squares_of_means(a, view.known + begin, order, m, n, least, whole);
-    if (view.known_real != nullptr)
-        return squares_of_means_in_stream(a, view.known_real + begin, order, m, n, least, whole);
+    if (view.known != nullptr)
+        return squares_of_means(a, view.known + begin, order, m, n, min_known(m, view.least_known_ratio));
     TermSum sum = squares_of(a, view.may_be_missing, order, m, n);
+    const auto whole = static_cast<double>(m);
     sum.sum /= whole * whole;
     return sum;
 }

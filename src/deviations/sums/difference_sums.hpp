@@ -20,28 +20,19 @@ struct TermSum {
     }
 };
 
-// The arrays of a record, and how much of a window must be known. Averaging times m of what follows count entries of
-// the arrays, which may be `stride` intervals apart; then they are sums of as many angles for averaged_sum.
+// The arrays of a record, and how much of a window must be known.
 struct RecordView {
     const double* angle = nullptr;
     const std::uint32_t* known = nullptr;  // none: all known, or phase with NaN
-    const double* known_real = nullptr;    // the same as real numbers
     bool may_be_missing = false;           // an angle may be NaN
-    std::int64_t n_intervals = 0;          // of the array: entries less one
+    std::int64_t n_intervals = 0;          // entries less one
     double least_known_ratio = 1.0;
-    std::int64_t stride = 1;
-
-    [[nodiscard]] bool has_counts() const { return known != nullptr || known_real != nullptr; }
 };
 
 [[nodiscard]] RecordView view_of(const AngleRecord& record, double least_known_ratio);
 
 // Known intervals that a window of m needs.
 [[nodiscard]] double min_known(std::int64_t m, double ratio);
-
-// Terms that are summed at once, in memory and as a stream: the same sums are added in both, and what averaging times
-// share stays in the cache.
-inline constexpr std::int64_t block_starts = 4096;
 
 // Terms begin .. end-1 of one averaging time, `order` 2 or 3: those that begin at border i.
 [[nodiscard]] TermSum difference_sum(const RecordView& view, int order, std::int64_t m, std::int64_t begin,
