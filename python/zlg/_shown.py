@@ -1,16 +1,14 @@
-"""How results show themselves: as one line, as a table in a notebook, as a data frame."""
+"""How results show themselves: as one line, as a data frame."""
 
 from __future__ import annotations
 
 import dataclasses
-import html
 import importlib
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-__all__ = ["Columns", "Shown", "axes_of", "short"]
+__all__ = ["Columns", "Shown", "axes_of"]
 
 
 def short(value: Any) -> str:
@@ -45,24 +43,9 @@ def _is_large(value: Any) -> bool:
 class Shown:
     """A dataclass whose repr stays short; arrays are told by their length and ends."""
 
-    def _rows(self) -> list[tuple[str, str]]:
-        return [(name, short(value)) for name, value in members_of(self) if value is not None]
-
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(f'{name}={text}' for name, text in self._rows())})"
-
-    def _repr_html_(self) -> str:
-        return table_html(type(self).__name__, [], self._rows())
-
-
-def table_html(title: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A table as notebooks show it."""
-
-    def line(tag: str, cells: Sequence[str]) -> str:
-        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
-
-    body = "".join(line("td", row) for row in rows)
-    return f"<table><caption>{html.escape(title)}</caption>{line('th', head) if head else ''}{body}</table>"
+        members = [f"{name}={short(value)}" for name, value in members_of(self) if value is not None]
+        return f"{type(self).__name__}({', '.join(members)})"
 
 
 class Columns(Shown):

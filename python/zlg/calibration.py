@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import Progress, columns_of, made_of, warn_each
-from ._shown import Shown, table_html
+from ._shown import Shown
 from .config import Config, checked
 from .logs import Path, RawLog
 
@@ -113,10 +113,6 @@ class Calibration(Shown):
     def write(self, path: Path, force: bool = False) -> None:
         """Write it as a file. Raises IoError; a file is not overwritten without `force`."""
         _zlg.write_text(os.fspath(path), self.toml, force)
-
-    def _repr_html_(self) -> str:
-        rows = [[c.key, f"{c.value:.8g}", f"{c.sigma:.3g}", c.unit] for c in self.constants]
-        return table_html(f"{len(self.logs)} logs", ["constant", "value", "+-", "unit"], rows)
 
 
 Log = Union[Path, RawLog]

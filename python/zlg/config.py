@@ -15,7 +15,6 @@ from typing import Any, Optional, Union
 
 from . import _zlg
 from . import sections as _sections
-from ._shown import table_html
 from .section import give, given_of, keys_of
 from .sections import *
 from .sections import Sections
@@ -114,9 +113,6 @@ class Config(Sections):
     def __repr__(self) -> str:
         """What was given or is not the default, as the call that makes the same."""
         return f"zlg.Config.of({', '.join(repr(f'{key}={value}') for key, value in self.settings())})"
-
-    def _repr_html_(self) -> str:
-        return table_html("zlg.Config, beside the defaults", ["key", "value"], self.settings())
 
     def check(self) -> None:
         """Raises ConfigError with the first rule that is broken."""

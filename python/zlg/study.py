@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import Progress, floats, made_of, signs, warn_each
-from ._shown import Shown, axes_of, short, table_html
+from ._shown import Shown, axes_of
 from .analysis import Deviations, ModeSplit, NoiseFit
 from .config import Config, checked, resolved
 from .logs import AngleLog, Path, RawLog, Switches, kind, read_angles, read_raw
@@ -107,11 +107,6 @@ class RunResult(Shown):
             if variant.name == name:
                 return variant
         raise KeyError(f"{name}: allowed are {', '.join(variant.name for variant in variants)}")
-
-    def _repr_html_(self) -> str:
-        columns = ("name", "drift_arcsec_s", "angle_error_arcsec", "switch_mean_arcsec", "switch_rms_arcsec", "switch_max_arcsec")
-        rows = [[short(getattr(variant, column)).strip("'") for column in columns] for variant in self.variants]
-        return table_html(f"{self.ticks * self.tick_s:g} s, {len(self.switches.tick)} switches", columns, rows)
 
     def to_pandas(self) -> Any:
         """One row a variant: drift, error at the end and errors of switches, as a pandas.DataFrame. Needs pandas."""

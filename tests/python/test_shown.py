@@ -40,13 +40,6 @@ def test_whatever_is_in_a_result_its_text_is_short(result, fit):
     assert repr(zlg.analysis.NoiseTerms()) == "NoiseTerms()"
 
 
-def test_a_notebook_gets_a_table_of_the_variants(result):
-    table = result._repr_html_()
-    assert table.count("<tr>") == 1 + len(result.variants)
-    assert "<td>configured</td>" in table and "60 s, 5 switches" in table
-    assert "<script>" not in zlg.Config.of('motion.path="<script>"')._repr_html_()
-
-
 def test_plots_show_what_is_in_a_result(result, fit):
     lines = result.plot().get_lines()
     assert [line.get_label() for line in lines] == [variant.name for variant in result.variants]
