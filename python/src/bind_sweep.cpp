@@ -1,7 +1,6 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/sweep/checkpoint.hpp>
 #include <zlg/sweep/metrics.hpp>
-#include <zlg/sweep/sensitivity.hpp>
 #include <zlg/sweep/sweep.hpp>
 
 #include "arrays.hpp"
@@ -76,31 +75,12 @@ py::tuple read_sweep(const std::string& path) {
     return py::make_tuple(results.description, columns_of(gyros, results.rows));
 }
 
-py::dict sobol_of(const In<double>& points, const In<double>& values, int n_resamples, std::uint64_t seed) {
-    if (points.ndim() != 2) throw std::invalid_argument{"samples: allowed are two dimensions, points by inputs"};
-    const auto n_inputs = static_cast<std::size_t>(points.shape(1));
-    const std::span<const double> all{points.data(), static_cast<std::size_t>(points.size())};
-    const sweep::SobolIndices found =
-        sweep::sobol_indices(sweep::as_design(all, span_of(values, "values"), n_inputs), n_resamples, seed);
-    const auto of = [&](double sweep::SobolIndex::*member) {
-        std::vector<double> column;
-        for (const sweep::SobolIndex& index : found.inputs) column.push_back(index.*member);
-        return as_array(std::move(column));
-    };
-    using Index = sweep::SobolIndex;
-    return py::dict("first"_a = of(&Index::first), "first_low"_a = of(&Index::first_low),
-                    "first_high"_a = of(&Index::first_high), "total"_a = of(&Index::total),
-                    "total_low"_a = of(&Index::total_low), "total_high"_a = of(&Index::total_high),
-                    "n_rows"_a = found.n_rows, "n_dropped"_a = found.n_dropped, "variance"_a = found.variance);
-}
-
 }  // namespace
 
 void bind_sweep(py::module_& m) {
     m.def("sweep", &run_sweep, "description"_a, "source_name"_a, "out"_a, "part"_a, "parts"_a, "threads"_a, "force"_a,
           "progress"_a);
     m.def("read_sweep", &read_sweep, "path"_a);
-    m.def("sobol", &sobol_of, "samples"_a, "values"_a, "n_resamples"_a, "seed"_a);
 }
 
 }  // namespace zlg::python

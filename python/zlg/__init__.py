@@ -18,7 +18,7 @@ from .logs import convert
 from .rig import simulate
 from .core import compensate
 from .study import RunResult, analyze, read, run
-from .sweeps import SobolIndices, read_sweep, sobol, sweep
+from .sweeps import read_sweep, sweep
 
 __version__: str = _zlg.version
 
@@ -33,7 +33,6 @@ __all__ = [
     "MappingError",
     "RunResult",
     "SeriesError",
-    "SobolIndices",
     "__version__",
     "analysis",
     "analyze",
@@ -52,7 +51,6 @@ __all__ = [
     "rig",
     "run",
     "simulate",
-    "sobol",
     "study",
     "sweep",
     "sweeps",

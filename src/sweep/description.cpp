@@ -76,7 +76,7 @@ std::string toml_of(const Value& value) {
 std::string to_toml(const Description& d) {
     std::string text = fmt::format("# zlg {}\n[sweep]\ngyros = {}\nseed = {}\n", ZLG_VERSION, d.n_gyros, d.seed);
     if (d.duration_s) text += fmt::format("duration_s = {}\n", text::toml_real(*d.duration_s));
-    text += fmt::format("sobol_shift = {}\nsensitivity = {}\n[base]\n", d.sobol_shift, d.sensitivity);
+    text += fmt::format("sobol_shift = {}\n[base]\n", d.sobol_shift);
     for (const auto& [key, value] : d.base) text += fmt::format("{} = {}\n", key, value);
     if (!d.motion_checksums.empty()) text += "[motion_checksums]\n";
     for (const auto& [path, checksum] : d.motion_checksums)

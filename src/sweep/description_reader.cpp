@@ -233,19 +233,6 @@ void read_gyros(const Table& sweep, Description& d) {
         sweep.refuse("gyros", fmt::format("a multiple of the {} points of the grid, or nothing", points));
 }
 
-// A row of Saltelli's design has a gyro for each parameter and two more.
-void check_sensitivity(const Table& sweep, const Description& d) {
-    if (!d.sensitivity) return;
-    const bool are_sobol = !d.parameters.empty() && std::ranges::all_of(d.parameters, [](const Parameter& p) {
-        return p.draw == DrawKind::sobol;
-    });
-    if (!are_sobol) sweep.refuse("sensitivity", "true where every [[parameter]] has draw = \"sobol\", and false");
-    const auto row = static_cast<std::int64_t>(d.parameters.size()) + 2;
-    if (d.n_gyros % row != 0)
-        sweep.refuse("gyros",
-                     fmt::format("a multiple of {}, two more than there are parameters, for sensitivity", row));
-}
-
 }  // namespace
 
 toml::table parse_document(std::string_view text, std::string_view source_name) {
@@ -293,13 +280,15 @@ Description parse(std::string_view text, std::string_view source_name) {
             fmt::format("{}:{}: [sweep] duration_s", source_name, sweep.node("duration_s").source().begin.line));
     }
     d.sobol_shift = sweep.boolean("sobol_shift", d.sobol_shift);
-    d.sensitivity = sweep.boolean("sensitivity", d.sensitivity);
+    // A former version wrote it into each file of results.
+    if (sweep.boolean("sensitivity", false))
+        sweep.refuse("sensitivity",
+                     "false: a design of Saltelli's is drawn from lists, and its indices are those of SALib");
     read_base(root, source_name, d);
     read_motion_checksums(root, source_name, d);
     d.parameters = read_parameters(root, "parameter", base_config(d, source_name));
     read_metrics(root, d);
     read_gyros(sweep, d);
-    check_sensitivity(sweep, d);
     return d;
 }
 

@@ -53,7 +53,7 @@ Draws::Draws(const Description& description)
         ++n_sobol_;
         if (!description.sobol_shift) continue;
         chance::Draw draw{description.seed, chance::Cause::sweep_shift, 0, thing_of(p)};
-        for (std::uint64_t& shift : shift_[k]) shift = draw.bits();
+        shift_[k] = draw.bits();
     }
 }
 
@@ -95,17 +95,11 @@ std::vector<std::uint64_t> Draws::sobol_point(std::int64_t index, std::size_t n_
 // Of Saltelli's design, row by row: A, A with the column of one parameter from B, and so on, B. A is the first half of
 // the dimensions of a point, B the second.
 std::vector<double> Draws::sobol_places(std::int64_t gyro) const {
-    const bool is_design = description_.sensitivity;
-    const auto row_length = static_cast<std::int64_t>(is_design ? n_sobol_ + 2 : 1);
-    const auto kind = static_cast<std::size_t>(gyro % row_length);
-    const std::vector<std::uint64_t> bits = sobol_point(gyro / row_length, is_design ? 2 * n_sobol_ : n_sobol_);
+    const std::vector<std::uint64_t> bits = sobol_point(gyro, n_sobol_);
     std::vector<double> places;
-    for (std::size_t k = 0; k < description_.parameters.size(); ++k) {
-        if (description_.parameters[k].draw != DrawKind::sobol) continue;
-        const std::size_t dimension = places.size();
-        const bool from_b = is_design && (kind == dimension + 1 || kind == n_sobol_ + 1);
-        places.push_back(unit_interval(bits[dimension + (from_b ? n_sobol_ : 0)] ^ shift_[k][from_b ? 1 : 0]));
-    }
+    for (std::size_t k = 0; k < description_.parameters.size(); ++k)
+        if (description_.parameters[k].draw == DrawKind::sobol)
+            places.push_back(unit_interval(bits[places.size()] ^ shift_[k]));
     return places;
 }
 

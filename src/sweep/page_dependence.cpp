@@ -60,17 +60,13 @@ std::vector<Figure> response_figures(const Description& d, const Columns& c) {
     return figures;
 }
 
-// Of Saltelli's design.
-std::size_t n_rows(const Description& d) { return static_cast<std::size_t>(d.n_gyros) / (d.parameters.size() + 2); }
-
 report::Table correlation_table(const Description& d, const Columns& c) {
     const std::size_t n = c.metrics.front().size();
-    const std::size_t n_drawn = d.sensitivity ? std::min(n, independent_gyros(n_rows(d), d.parameters.size())) : n;
     report::Table t{.caption = fmt::format("Spearman's rank correlation of {} good gyros; where limits stand on both "
                                            "sides, of the distance from their "
                                            "middle. Between independent numbers {} is passed once in twenty times. A "
                                            "dependence that rises and falls does not show.",
-                                           n, short_number(chance_correlation(n_drawn))),
+                                           n, short_number(chance_correlation(n))),
                     .header = {"parameter"}};
     for (const Metric& m : d.metrics) t.header.push_back(m.name);
     for (std::size_t p = 0; p < c.parameters.size(); ++p) {
@@ -82,43 +78,6 @@ report::Table correlation_table(const Description& d, const Columns& c) {
             line.push_back(fixed_number(rank_correlation(c.parameters[p], held).value_or(NAN), 2));
         }
         t.rows.push_back(std::move(line));
-    }
-    return t;
-}
-
-SobolDesign design_of(const Description& d, const Rows& rows, std::size_t metric) {
-    const std::size_t n_kinds = d.parameters.size() + 2;
-    SobolDesign design;
-    design.mixed.resize(d.parameters.size());
-    for (std::size_t row = 0; row < n_rows(d); ++row)
-        for (std::size_t kind = 0; kind < n_kinds; ++kind) {
-            const auto found = rows.find(static_cast<std::int64_t>(row * n_kinds + kind));
-            const bool is_good = found != rows.end() && found->second.status == Status::good;
-            auto& column = kind == 0 ? design.a : kind + 1 == n_kinds ? design.b : design.mixed[kind - 1];
-            column.push_back(is_good ? found->second.metrics[metric] : NAN);
-        }
-    return design;
-}
-
-std::string with_interval(double value, double low, double high) {
-    return fmt::format("{} ({} to {})", fixed_number(value, 3), fixed_number(low, 3), fixed_number(high, 3));
-}
-
-report::Table sobol_table(const Description& d, const Rows& rows, std::size_t metric) {
-    const SobolIndices found = sobol_indices(design_of(d, rows, metric));
-    report::Table t{.caption = fmt::format("Sobol's indices of {}, with intervals of 95 %, from {} rows of the design; "
-                                           "{} rows hold a gyro that failed and are left out. "
-                                           "The noise of each run counts as an interaction of all.",
-                                           d.metrics[metric].name, found.n_rows, found.n_dropped),
-                    .header = {"parameter", "alone", "with interactions", "says the sample"}};
-    for (std::size_t k = 0; k < found.inputs.size(); ++k) {
-        const SobolIndex& i = found.inputs[k];
-        const bool decides = i.total_high - i.total_low < 0.5;
-        t.rows.push_back(row(d.parameters[k].keys.front(), with_interval(i.first, i.first_low, i.first_high),
-                             with_interval(i.total, i.total_low, i.total_high),
-                             !decides            ? "nothing yet: more gyros are needed"
-                             : i.first_low > 0.0 ? "it matters"
-                                                 : "alone no more than chance"));
     }
     return t;
 }
@@ -139,7 +98,6 @@ Columns columns_of(const Gyros& gyros, const Rows& rows) {
     for (const auto& [gyro, row] : rows) {
         if (row.status != Status::good) continue;
         const std::vector<Value> values = gyros.values(gyro);
-        c.gyros.push_back(gyro);
         for (std::size_t k = 0; k < drawn.size(); ++k)
             if (const double* number = std::get_if<double>(&values[k])) drawn[k].push_back(*number);
         for (std::size_t k = 0; k < c.metrics.size(); ++k) c.metrics[k].push_back(row.metrics[k]);
@@ -158,12 +116,9 @@ Limit limit_of(const Metric& m) {
     return {"upper limit", 1.0, 0.0, false};
 }
 
-Section dependence(const Gyros& gyros, const Rows& rows, const Columns& c) {
-    const Description& d = gyros.description();
+Section dependence(const Description& d, const Columns& c) {
     Section s{.heading = "What the numbers depend on"};
     s.tables.push_back(correlation_table(d, c));
-    if (d.sensitivity)
-        for (std::size_t m = 0; m < d.metrics.size(); ++m) s.tables.push_back(sobol_table(d, rows, m));
     s.figures = response_figures(d, c);
     return s;
 }

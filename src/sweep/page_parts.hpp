@@ -18,7 +18,6 @@ inline constexpr int points_shown = 1000;  // of a curve
 
 // The good gyros, as columns.
 struct Columns {
-    std::vector<std::int64_t> gyros;  // their numbers
     std::vector<std::vector<double>> metrics;
     std::vector<std::string> names;  // of the parameters that are numbers
     std::vector<std::vector<double>> parameters;
@@ -44,6 +43,6 @@ struct Limit {
 [[nodiscard]] Limit limit_of(const Metric& m);
 
 // Correlations, Sobol's indices where the design has them, and responses.
-[[nodiscard]] report::Section dependence(const Gyros& gyros, const Rows& rows, const Columns& columns);
+[[nodiscard]] report::Section dependence(const Description& description, const Columns& columns);
 
 }  // namespace zlg::sweep

@@ -6,7 +6,6 @@
 namespace zlg::sweep {
 namespace {
 
-constexpr double presumed_rows = 8.0;
 constexpr double sigmas_of_95_percent = 1.959963984540054;  // the 97.5 % quantile of the normal law
 
 bool is_good(const Row& row) { return row.status == Status::good; }
@@ -33,13 +32,9 @@ void add_moments(MetricSummary& summary, const std::vector<double>& values) {
 }
 
 template <class Passes>
-Yield yield_where(const Description& description, const Rows& rows, const Passes& is_passed) {
-    YieldCount count{description};
-    for (const auto& [gyro, row] : rows) {
-        count.add(gyro);
-        if (is_passed(row)) count.pass(gyro);
-    }
-    return count.yield();
+Yield yield_where(const Rows& rows, const Passes& is_passed) {
+    return yield_of(std::ranges::count_if(rows, [&](const auto& row) { return is_passed(row.second); }),
+                    std::ssize(rows));
 }
 
 MetricSummary summary_of(const Description& d, const Rows& rows, std::size_t k) {
@@ -47,7 +42,7 @@ MetricSummary summary_of(const Description& d, const Rows& rows, std::size_t k) 
     MetricSummary summary{.metric = metric};
     std::vector<double> values = good_values(rows, k);
     if (has_limit(metric) && !rows.empty())
-        summary.yield = yield_where(d, rows, [&](const Row& r) { return is_good(r) && passes(metric, r.metrics[k]); });
+        summary.yield = yield_where(rows, [&](const Row& r) { return is_good(r) && passes(metric, r.metrics[k]); });
     if (values.empty()) return summary;
     add_moments(summary, values);
     std::ranges::sort(values);
@@ -57,67 +52,18 @@ MetricSummary summary_of(const Description& d, const Rows& rows, std::size_t k) 
     return summary;
 }
 
-// Wilson's interval of gyros that say as much as n independent ones.
-Yield wilson(std::int64_t passed, std::int64_t gyros, double n) {
-    const double p = static_cast<double>(passed) / static_cast<double>(gyros);
+}  // namespace
+
+Yield yield_of(std::int64_t passed, std::int64_t gyros) {
+    if (gyros == 0) return {};
+    const auto n = static_cast<double>(gyros);
+    const double p = static_cast<double>(passed) / n;
     const double z = sigmas_of_95_percent;
     const double centre = (p + z * z / (2.0 * n)) / (1.0 + z * z / n);
     const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / (1.0 + z * z / n);
     // At the ends the limit is exact, and is not left to rounding.
-    return {passed, gyros, p, passed == 0 ? 0.0 : centre - half, passed == gyros ? 1.0 : centre + half, n};
+    return {passed, gyros, p, passed == 0 ? 0.0 : centre - half, passed == gyros ? 1.0 : centre + half};
 }
-
-}  // namespace
-
-YieldCount::YieldCount(const Description& description)
-    : gyros_a_row_{description.sensitivity ? static_cast<std::int64_t>(description.parameters.size()) + 2 : 1} {}
-
-YieldCount::DesignRow& YieldCount::row_of(std::int64_t gyro) {
-    const auto k = static_cast<std::size_t>(gyro / gyros_a_row_);
-    if (k >= rows_.size()) rows_.resize(k + 1);
-    return rows_[k];
-}
-
-void YieldCount::add(std::int64_t gyro) {
-    ++gyros_;
-    if (gyros_a_row_ == 1) return;
-    DesignRow& row = row_of(gyro);
-    if (row.gyros == 0) ++n_rows_;
-    if (row.passed == row.gyros) ++n_rows_with_failed_;
-    gyros_sq_ += 2 * row.gyros + 1;
-    gyros_passed_ += row.passed;
-    ++row.gyros;
-}
-
-void YieldCount::pass(std::int64_t gyro) {
-    ++passed_;
-    if (gyros_a_row_ == 1) return;
-    DesignRow& row = row_of(gyro);
-    passed_sq_ += 2 * row.passed + 1;
-    gyros_passed_ += row.gyros;
-    ++row.passed;
-    if (row.passed == 1) ++n_rows_with_passed_;
-    if (row.passed == row.gyros) --n_rows_with_failed_;
-}
-
-// (1) and (2).
-double YieldCount::worth() const {
-    const auto n = static_cast<double>(gyros_);
-    if (gyros_a_row_ == 1) return n;
-    const double rows = n * n / static_cast<double>(gyros_sq_);
-    if (passed_ == 0 || passed_ == gyros_ || n_rows_ < 2) return rows;
-    const double p = static_cast<double>(passed_) / n;
-    const double squares = static_cast<double>(passed_sq_) - 2.0 * p * static_cast<double>(gyros_passed_) +
-                           p * p * static_cast<double>(gyros_sq_);
-    const auto r = static_cast<double>(n_rows_);
-    const double seen = r / (r - 1.0) * squares / (n * n);
-    const double together = p * (1.0 - p) / rows;
-    const auto k = static_cast<double>(std::min(n_rows_with_passed_, n_rows_with_failed_));
-    const double variance = (k * seen + presumed_rows * together) / (k + presumed_rows);
-    return std::clamp(p * (1.0 - p) / variance, rows, n);
-}
-
-Yield YieldCount::yield() const { return gyros_ == 0 ? Yield{} : wilson(passed_, gyros_, worth()); }
 
 double quantile(std::span<const double> sorted, double p) {
     const double place = p * static_cast<double>(sorted.size() - 1);
@@ -144,7 +90,7 @@ Summary summary_of(const Description& description, const Rows& rows) {
     for (std::size_t k = 0; k < description.metrics.size(); ++k)
         summary.metrics.push_back(summary_of(description, rows, k));
     if (!rows.empty() && std::ranges::any_of(description.metrics, has_limit))
-        summary.yield = yield_where(description, rows, [&](const Row& row) { return passes_all(description, row); });
+        summary.yield = yield_where(rows, [&](const Row& row) { return passes_all(description, row); });
     return summary;
 }
 

@@ -43,8 +43,7 @@ report::Table summary_table(const Summary& summary) {
 report::Table yield_table(const Summary& summary) {
     report::Table t{
         .caption =
-            "Yield: the part of all gyros, the failed ones among them, that passes. The interval is Wilson's, of "
-            "95 %; with sensitivity it takes the rows of the design for clusters.",
+            "Yield: the part of all gyros, the failed ones among them, that passes. The interval is Wilson's, of 95 %.",
         .header = {"number", "limits", "passed", "gyros", "yield", "interval"}};
     const auto add = [&](const std::string& name, const std::string& allowed, const Yield& y) {
         t.rows.push_back(row(name, allowed, y.passed, y.gyros, percent(y.value), interval(y)));
@@ -55,24 +54,20 @@ report::Table yield_table(const Summary& summary) {
     return t;
 }
 
-Figure yield_figure(const Description& d, const Columns& columns, const Rows& rows, std::size_t k) {
-    const Metric& metric = d.metrics[k];
+Figure yield_figure(const Metric& metric, const std::vector<double>& values, std::int64_t n_gyros, std::size_t k) {
     const Limit limit = limit_of(metric);
     Figure f = blank_figure(fmt::format("yield-{}", k), fmt::format("Yield against the limit of {}", metric.name),
                             "The part of all gyros that passes if the limit were there. Dashed: the interval of 95 %.",
                             with_unit(limit.label, unit_of(metric.name)), "yield");
-    std::vector<std::pair<double, std::int64_t>> sorted;
-    for (std::size_t n = 0; n < columns.gyros.size(); ++n)
-        sorted.emplace_back(limit.sign * limit.of(columns.metrics[k][n]), columns.gyros[n]);
+    std::vector<double> sorted;
+    for (const double value : values) sorted.push_back(limit.sign * limit.of(value));
     std::ranges::sort(sorted);
-    YieldCount count{d};
-    for (const auto& [gyro, row] : rows) count.add(gyro);
     Series yield = blank_series("yield");
     Series low = blank_series("95 % interval", Mark::line, true, 0);
     Series high = blank_series("", Mark::line, true, 0);
-    for (const auto& [held, gyro] : sorted) {
-        count.pass(gyro);
-        const Yield y = count.yield();
+    std::int64_t passed = 0;
+    for (const double held : sorted) {
+        const Yield y = yield_of(++passed, n_gyros);
         add_point(yield, limit.sign * held, y.value);
         add_point(low, limit.sign * held, y.low);
         add_point(high, limit.sign * held, y.high);
@@ -189,15 +184,14 @@ report::Page sweep_page(const Gyros& gyros, const Rows& rows) {
     for (std::size_t k = 0; k < d.metrics.size() && summary.failed < summary.gyros; ++k) {
         if (!varies(columns.metrics[k])) continue;
         numbers.figures.push_back(distribution_figure(d.metrics[k], columns.metrics[k], k));
-        numbers.figures.push_back(yield_figure(d, columns, rows, k));
+        numbers.figures.push_back(yield_figure(d.metrics[k], columns.metrics[k], summary.gyros, k));
     }
     page.sections.push_back(std::move(numbers));
     if (summary.yield) {
         const Placement placement{gyros, rows};
         if (!placement.ranges().empty()) page.sections.push_back(tolerance_section(d, placement));
     }
-    if (!columns.parameters.empty() && summary.failed < summary.gyros)
-        page.sections.push_back(dependence(gyros, rows, columns));
+    if (!columns.parameters.empty() && summary.failed < summary.gyros) page.sections.push_back(dependence(d, columns));
     page.sections.push_back(worst_section(gyros, rows));
     page.sections.push_back({.heading = "How this page was made",
                              .paragraphs = {"Saved as sweep.toml, the lines below make it again: zlg sweep sweep.toml "

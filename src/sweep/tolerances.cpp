@@ -12,14 +12,15 @@ namespace {
 constexpr double draw_in = 0.9;
 
 // The parameter to draw in next; ways.size(): none leaves enough gyros.
-std::size_t next(const Placement& placement, const std::vector<double>& ways, const Yield& before, double least_worth) {
+std::size_t next(const Placement& placement, const std::vector<double>& ways, const Yield& before,
+                 std::int64_t fewest) {
     std::size_t best = ways.size();
     double best_gain = 0.0;
     for (std::size_t k = 0; k < ways.size(); ++k) {
         std::vector<double> tried = ways;
         tried[k] *= draw_in;
         const std::optional<Yield> after = placement.yield_within(tried);
-        if (!after || after->worth < least_worth) continue;
+        if (!after || after->gyros < fewest) continue;
         const auto lost = static_cast<double>(before.gyros - after->gyros);
         const double gain = (after->value - before.value) / (lost + 1.0);
         if (best < ways.size() && gain <= best_gain) continue;
@@ -82,33 +83,31 @@ double Range::way(double value) const {
     return end == nominal ? std::abs(value - nominal) > 0.0 : (value - nominal) / (end - nominal);
 }
 
-Placement::Placement(const Gyros& gyros, const Rows& rows)
-    : description_{gyros.description()}, ranges_{ranges_of(gyros, rows)} {
+Placement::Placement(const Gyros& gyros, const Rows& rows) : ranges_{ranges_of(gyros, rows)} {
     for (const auto& [gyro, row] : rows) {
         const std::vector<Value> values = gyros.values(gyro);
-        Placed one{.gyro = gyro, .ways = {}, .passes = passes_all(description_, row)};
+        Placed one{.ways = {}, .passes = passes_all(gyros.description(), row)};
         for (const Range& range : ranges_) one.ways.push_back(range.way(std::get<double>(values[range.parameter])));
         all_.push_back(std::move(one));
     }
 }
 
 std::optional<Yield> Placement::yield_within(const std::vector<double>& ways) const {
-    YieldCount count{description_};
+    std::int64_t gyros = 0, passed = 0;
     for (const Placed& one : all_) {
         if (!std::ranges::equal(one.ways, ways, std::ranges::less_equal{})) continue;
-        count.add(one.gyro);
-        if (one.passes) count.pass(one.gyro);
+        ++gyros;
+        passed += one.passes ? 1 : 0;
     }
-    const Yield yield = count.yield();
-    return yield.gyros > 0 ? std::optional{yield} : std::nullopt;
+    return gyros > 0 ? std::optional{yield_of(passed, gyros)} : std::nullopt;
 }
 
-Tolerances tolerances(const Placement& placement, double wanted_yield, double least_worth) {
+Tolerances tolerances(const Placement& placement, double wanted_yield, std::int64_t fewest) {
     Tolerances found{.ways = std::vector<double>(placement.ranges().size(), 1.0)};
     found.yield = placement.yield_within(found.ways);
-    const auto is_enough = [&] { return found.yield && found.yield->worth >= least_worth; };
+    const auto is_enough = [&] { return found.yield && found.yield->gyros >= fewest; };
     while (is_enough() && found.yield->value < wanted_yield) {
-        const std::size_t k = next(placement, found.ways, *found.yield, least_worth);
+        const std::size_t k = next(placement, found.ways, *found.yield, fewest);
         if (k == found.ways.size()) break;
         found.ways[k] *= draw_in;
         found.yield = placement.yield_within(found.ways);

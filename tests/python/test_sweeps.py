@@ -1,6 +1,5 @@
-"""Sweeps from Python: the rows of the file as a data frame; Sobol's indices against known functions and OpenTURNS."""
+"""Sweeps from Python: the rows of the file as a data frame."""
 
-import numpy as np
 import pytest
 
 import zlg
@@ -50,51 +49,3 @@ def test_takes_a_file_and_names_it(tmp_path):
         zlg.sweep(SWEEP.replace("seed = 3", "seed = 4"), tmp_path / "r.h5")
     with pytest.raises(ValueError, match="part"):
         zlg.sweep(path, tmp_path / "r.h5", part=(4, 3))
-
-
-def saltelli(n, d, seed):
-    """Blocks A, B, and A with one column of B."""
-    chance = np.random.default_rng(seed)
-    a, b = chance.uniform(-np.pi, np.pi, (2, n, d))
-    mixed = []
-    for k in range(d):
-        mixed.append(a.copy())
-        mixed[-1][:, k] = b[:, k]
-    return np.concatenate([a, b, *mixed])
-
-
-def ishigami(x):
-    return np.sin(x[:, 0]) + 7 * np.sin(x[:, 1]) ** 2 + 0.1 * x[:, 2] ** 4 * np.sin(x[:, 0])
-
-
-def test_indices_are_those_of_openturns():
-    openturns = pytest.importorskip("openturns")
-    samples = saltelli(500, 3, 2)
-    values = ishigami(samples)
-    theirs = openturns.JansenSensitivityAlgorithm(samples, values.reshape(-1, 1), 500)
-    ours = zlg.sobol(samples, values)
-    assert ours.first == pytest.approx(list(theirs.getFirstOrderIndices()), abs=1e-12)
-    assert ours.total == pytest.approx(list(theirs.getTotalOrderIndices()), abs=1e-12)
-
-
-def test_a_failed_run_drops_its_row_and_another_design_is_refused():
-    samples = saltelli(64, 3, 3)
-    values = ishigami(samples)
-    values[70] = np.nan
-    found = zlg.sobol(samples, values)
-    assert (found.n_rows, found.n_dropped) == (63, 1)
-    assert np.all(np.isfinite(found.first))
-    with pytest.raises(ValueError, match="no design of Saltelli"):
-        zlg.sobol(samples[::-1], values)
-    with pytest.raises(ValueError, match="dimensions"):
-        zlg.sobol(samples[:, 0], values)
-
-
-def test_a_sweep_with_sensitivity_is_a_design(tmp_path):
-    text = SWEEP.replace("gyros = 6", "gyros = 12, sensitivity = true").replace('"uniform"', '"sobol"')
-    text = "".join(line for line in text.splitlines(True) if "compensation" not in line)
-    frame = zlg.sweep(text, tmp_path / "r.h5", threads=2)
-    found = zlg.sobol(frame[["gyro.bias_chi"]], frame["gyro.bias_chi"])
-    assert found.n_rows == 4
-    # Of a single input B and A_B are the same points: nothing is left beside it.
-    assert found.first == pytest.approx([1.0], abs=1e-12)

@@ -73,6 +73,12 @@ TEST(Description, refuses_what_contradicts_itself_and_says_where) {
               "s.toml:6: [parameter] values = []: allowed is an array of one value at least");
 }
 
+TEST(Description, of_a_former_version_is_read_and_its_design_of_rows_is_refused) {
+    const std::string rest = "\ngyros = 3\n" + testing_metric;
+    EXPECT_EQ(parse("[sweep]\nsensitivity = false" + rest, "s").n_gyros, 3);
+    EXPECT_THROW((void)parse("[sweep]\nsensitivity = true" + rest, "s"), config::ConfigError);
+}
+
 TEST(Description, refuses_what_a_key_does_not_take_before_any_gyro_runs) {
     EXPECT_NE(refusal_of_parameter("keys = [\"piezo.half_wave\"]\ndraw = \"uniform\"\nmin = 1\nmax = 2\n")
                   .find("did you mean half_wave_v?"),

@@ -6,9 +6,8 @@
 
 namespace zlg::sweep::sweep_page_test {
 
-Description limited(int gyros, bool sensitivity = false) {
-    return parse("[sweep]\nsensitivity = " + std::string{sensitivity ? "true" : "false"} +
-                     "\ngyros = " + std::to_string(gyros) +
+Description limited(int gyros) {
+    return parse("[sweep]\ngyros = " + std::to_string(gyros) +
                      "\n[[parameter]]\nkeys = [\"gyro.bias_chi\"]\ndraw = \"sobol\"\nmin = 3\nmax = 4\n" +
                      testing_metric + "max = 3.5\n",
                  "s");
@@ -45,14 +44,6 @@ TEST(SweepPage, knows_a_dependence) {
     const Gyros gyros{limited(64)};
     const report::Page page = sweep_page(gyros, rows_of(gyros, 64));
     EXPECT_EQ(section(page, "What the numbers depend on")->tables[0].rows[0][1], "1.00");
-}
-
-TEST(SweepPage, has_the_indices_of_a_design) {
-    const Gyros gyros{limited(3 * 200, true)};
-    const report::Page page = sweep_page(gyros, rows_of(gyros, 599));
-    const report::Table& table = section(page, "What the numbers depend on")->tables.at(1);
-    EXPECT_NE(table.caption.find("from 199 rows of the design; 1 rows"), std::string::npos) << table.caption;
-    EXPECT_EQ(table.rows[0][1].substr(0, 4), "1.00") << "all of the variance comes from the one parameter";
 }
 
 TEST(SweepPage, is_made_also_where_all_failed_or_one_gyro_is_there) {

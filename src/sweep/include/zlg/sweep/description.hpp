@@ -48,9 +48,8 @@ struct Metric {
 struct Description {
     std::int64_t n_gyros = 0;
     std::uint64_t seed = 1;
-    std::optional<double> duration_s;  // unset: as of a run
-    bool sobol_shift = true;           // whether Sobol's points get a random digital shift
-    bool sensitivity = false;          // the gyros are the points of Saltelli's design, for Sobol's indices
+    std::optional<double> duration_s;                       // unset: as of a run
+    bool sobol_shift = true;                                // whether Sobol's points get a random digital shift
     std::vector<std::pair<std::string, std::string>> base;  // dotted keys with their TOML
     std::map<std::string, std::string> motion_checksums;    // by path; see motion_files.hpp
     std::vector<Parameter> parameters;

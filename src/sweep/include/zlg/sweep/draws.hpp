@@ -43,8 +43,8 @@ private:
     [[nodiscard]] static std::vector<std::uint64_t> sobol_point(std::int64_t index, std::size_t n_dimensions);
 
     Description description_;
-    std::vector<std::vector<std::uint32_t>> order_;    // by parameter: of the parts of latin
-    std::vector<std::array<std::uint64_t, 2>> shift_;  // by parameter: of sobol, and of its column in B
+    std::vector<std::vector<std::uint32_t>> order_;  // by parameter: of the parts of latin
+    std::vector<std::uint64_t> shift_;               // by parameter: of sobol
     std::size_t n_sobol_ = 0;
 };
 

@@ -41,12 +41,10 @@ public:
 
 private:
     struct Placed {
-        std::int64_t gyro = 0;
         std::vector<double> ways;
         bool passes = false;
     };
 
-    Description description_;
     std::vector<Range> ranges_;
     std::vector<Placed> all_;
 };
@@ -58,9 +56,9 @@ struct Tolerances {
 };
 
 // From the full ranges the tolerance of one parameter after the other is drawn in by a tenth, each time that one by
-// which the yield grows most for each gyro that is lost, until it is reached or what is left is worth fewer than
-// `least_worth` independent gyros. Chosen by the sample that it is read from, the yield is a little too good: a sweep
+// which the yield grows most for each gyro that is lost, until it is reached or what is left are fewer than
+// `fewest` gyros. Chosen by the sample that it is read from, the yield is a little too good: a sweep
 // over these tolerances verifies it.
-[[nodiscard]] Tolerances tolerances(const Placement& placement, double wanted_yield, double least_worth = 30.0);
+[[nodiscard]] Tolerances tolerances(const Placement& placement, double wanted_yield, std::int64_t fewest = 30);
 
 }  // namespace zlg::sweep
