@@ -1,6 +1,7 @@
 #include <zlg/config/config.hpp>
 #include <zlg/paper/paper.hpp>
 #include <zlg/report/page.hpp>
+#include <zlg/rig/refusal.hpp>
 #include <zlg/study/analyze.hpp>
 #include <zlg/study/run.hpp>
 #include <zlg/study/run_page.hpp>
@@ -28,6 +29,8 @@ py::dict of(study::VariantResult&& v) {
 
 py::dict run(const config::Config& config, const std::vector<std::string>& warnings, bool raw, bool angles, bool page,
              int threads, const py::object& progress) {
+    if (raw || angles)
+        rig::require_every_half(config, "a log", "allowed is raw=False, angles=False, or gyro.fidelity = \"averaged\"");
     const Progress notify{progress};
     RawCollector records;
     AngleCollector rows;

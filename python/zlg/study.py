@@ -128,7 +128,7 @@ def run(
     config: Optional[Config] = None,
     *,
     raw: bool = False,
-    angles: bool = True,
+    angles: Optional[bool] = None,
     page: bool = False,
     threads: int = 1,
     progress: Progress = None,
@@ -136,10 +136,12 @@ def run(
     """The main experiment: a gyro that switches modes, every compensation on the same records, and the gyro in one mode.
 
     config  default: an hour of the paper's gyro.
-    raw, angles, page  what to keep beside the figures.
-    Raises ConfigError, IoError and FormatError for a motion file.
+    raw, angles, page  what to keep beside the figures; angles, unless it is said, of a gyro that lives every half.
+    Raises ConfigError, of fidelity "events" where a log is asked for, IoError and FormatError for a motion file.
     """
     used, contradictions = resolved(config)
+    if angles is None:
+        angles = used.gyro.fidelity != "events"
     result = _zlg.run(used, contradictions, raw, angles, page, threads, progress)
     if raw:
         result["raw"].update(settings=used.settings(), timer_hz=_zlg.timer_hz)

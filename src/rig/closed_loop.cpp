@@ -49,7 +49,7 @@ core::GyroCompensationConfig adviser_config(const config::Config& config) {
 
 std::optional<LeapPlan> plan_of(const config::Config& config, const twin::Motion& motion) {
     if (config.gyro.fidelity != config::Fidelity::events || !why_lived(config, motion).empty()) return {};
-    return leap_plan(config, adviser_config(config), motion);
+    return leap_plan(config, control_config(config), adviser_config(config), motion);
 }
 
 // A stretch between two events is leapt over in so many parts: points of the error in time.
@@ -121,7 +121,7 @@ std::optional<Leap> ClosedLoop::leap(std::int64_t most_halves) {
     // The warming moves the piezo in one direction: where it ends, it is nearest to an end of the range.
     while (ticks > 0 && near_end(range, core::Volts{twin_.voltage_after(2 * ticks)})) ticks /= 2;
     if (ticks < least_ticks) return {};
-    const Leap made = leap_of(twin_.leap(2 * ticks, singly), last_);
+    const Leap made = leap_of(twin_.leap(2 * ticks, {.singly = singly, .noise = plan_->noise}), last_);
     rig::leap(control_config_, control_state_, made);
     if (adviser_) adviser_->leap(made);
     for (double& v : actuator_.set_point_v) v += made.set_point_v;

@@ -21,10 +21,22 @@ std::int64_t settling_ticks(const config::Config& config) {
     return static_cast<std::int64_t>(std::ceil(time_constants * config.perimeter.tau_s / config.gyro.tick_s));
 }
 
+// The light reads the converter's steps as well, and the mean square of a half has both.
+twin::DetuningNoise noise_of(const config::Config& config, const core::PerimeterLoopConfig& loop) {
+    if (loop.kind != core::LoopKind::digital) return {};
+    const double gain = loop.half_period.value() / loop.time_constant.value();
+    const double step_v = std::ldexp(config.piezo.range_max_v - config.piezo.range_min_v, -config.piezo.dac_bits);
+    const double step_lambda = 0.5 * step_v / config.piezo.half_wave_v;
+    const double of_steps = step_lambda * step_lambda / 12.0;
+    const double of_light = config.gyro.light_noise_lambda * config.gyro.light_noise_lambda / config.gyro.light_samples;
+    const double settled = (of_light + of_steps) * gain / (2.0 - gain);
+    return {.sigma_lambda = std::sqrt(settled + of_steps), .kept = 1.0 - gain};
+}
+
 }  // namespace
 
-LeapPlan leap_plan(const config::Config& config, const core::GyroCompensationConfig& compensation,
-                   const twin::Motion& motion) {
+LeapPlan leap_plan(const config::Config& config, const core::GyroControlConfig& control,
+                   const core::GyroCompensationConfig& compensation, const twin::Motion& motion) {
     const core::GapBridgeConfig bridge = bridge_of(compensation);
     const bool is_estimated = core::is_estimated(bridge);
     const bool by_phase = config.gyro.readout == config::Readout::phase;
@@ -37,7 +49,8 @@ LeapPlan leap_plan(const config::Config& config, const core::GyroCompensationCon
             .after_ticks = std::max(settles, corrected) + halves_of_a_debounce,
             .before_ticks = settles + window + halves_of_a_debounce,
             .learn_ticks = is_estimated ? static_cast<std::int64_t>(core::forget_ticks) : 0,
-            .all_singly = drifts_are_followed && !motion.is_even()};
+            .all_singly = drifts_are_followed && !motion.is_even(),
+            .noise = noise_of(config, control.loop)};
 }
 
 std::string why_lived(const config::Config& config, const twin::Motion& motion) {

@@ -55,19 +55,23 @@ void MeteredCompensation::take(const core::GapReport& gap) const {
     if (on_gap) on_gap(gap);
 }
 
-ErrorMeter compensated_run(const config::Config& config, std::int64_t ticks, std::int64_t stride) {
-    rig::ClosedLoop loop{config, recorded::motion(config)};
-    MeteredCompensation compensation{config, stride};
+void MeteredCompensation::follow(rig::ClosedLoop& loop, std::int64_t ticks) {
     for (std::int64_t half = 0; half < 2 * ticks;) {
-        if (const auto leap = half % 2 == 0 ? loop.leap(2 * ticks - half) : std::nullopt) {
-            compensation.leap(*leap);
-            half += leap->halves;
+        if (const auto passed = half % 2 == 0 ? loop.leap(2 * ticks - half) : std::nullopt) {
+            leap(*passed);
+            half += passed->halves;
             continue;
         }
         const rig::LoopHalf now = loop.advance();
-        compensation.take(now, loop.light());
+        take(now, loop.light());
         ++half;
     }
+}
+
+ErrorMeter compensated_run(const config::Config& config, std::int64_t ticks, std::int64_t stride) {
+    rig::ClosedLoop loop{config, recorded::motion(config)};
+    MeteredCompensation compensation{config, stride};
+    compensation.follow(loop, ticks);
     return compensation.end();
 }
 

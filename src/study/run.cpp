@@ -244,6 +244,12 @@ std::optional<std::string> late_switches(const config::Config& config, const std
         asked.interval_s, reached_s);
 }
 
+std::optional<std::string> lived_after_all(const config::Config& config, const twin::Motion& motion) {
+    const std::string why = rig::why_lived(config, motion);
+    if (config.gyro.fidelity != config::Fidelity::events || why.empty()) return {};
+    return fmt::format("gyro.fidelity = \"events\": every half is lived, for {}", why);
+}
+
 // The same gyro without switching: its error is what switching is to remove.
 VariantResult one_mode(const RunTask& task, const twin::Motion& motion, std::int64_t ticks) {
     const config::Config unswitched = rig::without_switching(task.config);
@@ -308,6 +314,7 @@ RunResult run(const RunTask& task) {
     const twin::Motion motion = task.motion ? *task.motion : recorded::motion(task.config);
     const std::int64_t ticks = rig::run_ticks(task.config, motion);
     RunResult result{.tick_s = task.config.gyro.tick_s, .ticks = ticks, .warnings = task.warnings};
+    if (auto lived = lived_after_all(task.config, motion)) result.warnings.push_back(std::move(*lived));
     std::future<VariantResult> unswitched;
     if (is_wanted(task.variants, "one_mode"))
         unswitched = std::async(task.threads > 1 ? std::launch::async : std::launch::deferred,

@@ -114,6 +114,7 @@ Row Gyros::run(std::int64_t gyro, const std::function<bool()>& is_stopped) const
 
 std::string Gyros::command(std::int64_t gyro) const {
     std::string line = fmt::format("zlg run --seed {}", seed(gyro));
+    if (config(gyro).gyro.fidelity == config::Fidelity::events) line += " --logs none";
     if (description_.duration_s) line += fmt::format(" --duration {}", text::toml_real(*description_.duration_s));
     const auto set = [&](const std::string& key, const std::string& value) {
         line += fmt::format(" --set {}", quoted(fmt::format("{}={}", key, value)));

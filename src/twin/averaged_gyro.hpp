@@ -23,12 +23,13 @@ public:
 
     std::int64_t quiet_halves() override;
     double voltage_after(std::int64_t halves) override { return housing_.voltage_after(halves); }
-    Leap leap(std::int64_t halves, bool singly) override;
+    Leap leap(std::int64_t halves, const LeapWay& way) override;
 
 private:
     struct Drifts;
     void pass_singly(const Drifts& drifts, Leap& made);
     void pass_over(const Drifts& drifts, Leap& made);
+    void add_detuning_noise(const Drifts& drifts, const DetuningNoise& noise, Leap& made);
     [[nodiscard]] bool is_lit_in_one_mode() const;  // throughout the half
     void take_light(int bias_sign, bool is_steady, core::SensorFrame& sensor);
     BiasArea bias_area(bool is_steady, TwinTruth& truth);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <zlg/core/common/maths.hpp>
 
@@ -36,7 +37,7 @@ std::int64_t AveragedGyro::quiet_halves() {
     return has_memory ? 0 : housing_.halves_without_fault();
 }
 
-Leap AveragedGyro::leap(std::int64_t halves, bool singly) {
+Leap AveragedGyro::leap(std::int64_t halves, const LeapWay& way) {
     const std::uint64_t start = housing_.index();
     const double start_s = housing_.start_s();
     const double half_s = housing_.half_s();
@@ -59,10 +60,11 @@ Leap AveragedGyro::leap(std::int64_t halves, bool singly) {
         .last_bias_cycles = lit * bias_hz(),
         .helicity = mode.helicity()};
     made.dtheta_arcsec = motion_.increment_arcsec(start_s, end_s);
-    if (singly)
+    if (way.singly)
         pass_singly(drifts, made);
     else
         pass_over(drifts, made);
+    if (way.noise.sigma_lambda > 0.0) add_detuning_noise(drifts, way.noise, made);
     made.counts = static_cast<std::int64_t>(counter_.value() - counter);
     housing_.count_on(counter_.value());
     made.rounding_arcsec = -config_.gyro.scale_arcsec * counter_.fraction();
@@ -84,24 +86,31 @@ void AveragedGyro::pass_over(const Drifts& drifts, Leap& made) {
     counter_.advance(made.turned_counts);
 }
 
+void AveragedGyro::add_detuning_noise(const Drifts& drifts, const DetuningNoise& noise, Leap& made) {
+    const double lambda2 = noise.sigma_lambda * noise.sigma_lambda;
+    const double kept = noise.kept * noise.kept;
+    const double deviation = lambda2 * std::sqrt(2.0 * static_cast<double>(made.halves) * (1.0 - kept) / (1.0 + kept));
+    const double cycles = drifts.first_bias_cycles * config_.gyro.bias_chi * deviation *
+                          Noise{config_.seed, chance::Cause::leap, 2}.gauss(drifts.start, 0);
+    made.turned_counts += cycles;
+    counter_.advance(cycles);
+}
+
 void AveragedGyro::pass_singly(const Drifts& drifts, Leap& made) {
     const double half_s = housing_.half_s();
     const double scale = config_.gyro.scale_arcsec;
     const bool by_phase = config_.gyro.readout == Readout::phase;
     const Noise reading{config_.seed, chance::Cause::leap, 1};
     const double growth = (drifts.last_bias_cycles - drifts.first_bias_cycles) / static_cast<double>(made.halves);
-    const double even_arcsec = made.dtheta_arcsec / static_cast<double>(made.halves);
-    const bool is_even = motion_.is_even();
     int sign = housing_.bias_sign();
     made.half.resize(static_cast<std::size_t>(made.halves));
+    std::vector<double> turn(made.half.size());
+    motion_.increments_arcsec(static_cast<double>(drifts.start) * half_s, half_s, turn);
     for (std::size_t k = 0; k < made.half.size(); ++k, sign = -sign) {
         const std::uint64_t half = drifts.start + k;
-        const double from_s = static_cast<double>(half) * half_s;
-        const double turn =
-            is_even ? even_arcsec : motion_.increment_arcsec(from_s, static_cast<double>(half + 1) * half_s);
         const double walk = walk_of_half_arcsec_ > 0.0 ? walk_of_half_arcsec_ * walk_noise_.gauss(half) : 0.0;
         const double cycles = sign * (drifts.first_bias_cycles + growth * static_cast<double>(k)) +
-                              (turn + drifts.rate_arcsec_s * half_s + walk) / scale;
+                              (turn[k] + drifts.rate_arcsec_s * half_s + walk) / scale;
         const std::uint64_t before = counter_.value();
         counter_.advance(cycles);
         made.turned_counts += cycles;

@@ -150,6 +150,6 @@ Twin& Twin::operator=(Twin&&) noexcept = default;
 const TwinHalf& Twin::advance(const core::ActuatorFrame& actuator) { return gyro_->advance(actuator); }
 std::int64_t Twin::quiet_halves() { return gyro_->quiet_halves(); }
 double Twin::voltage_after(std::int64_t halves) { return gyro_->voltage_after(halves); }
-Leap Twin::leap(std::int64_t halves, bool singly) { return gyro_->leap(halves, singly); }
+Leap Twin::leap(std::int64_t halves, const LeapWay& way) { return gyro_->leap(halves, way); }
 
 }  // namespace zlg::twin

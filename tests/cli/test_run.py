@@ -219,6 +219,33 @@ class Switches(CliTest):
         self.assertIn(line, (self.folder / "off" / "report.html").read_text())
 
 
+class FromEventToEvent(CliTest):
+    """gyro.fidelity = "events": figures without a log of every half."""
+
+    EVENTS = ["--set", "gyro.fidelity=events", "--set", "switching.interval_s=20", "--duration", 100]
+
+    def test_a_log_of_every_half_is_refused_and_nothing_written(self):
+        for logs in ("all", "angles"):
+            self.refuse(2, "run", *self.EVENTS, "--logs", logs, "--out", self.folder / "run", says=("gyro.fidelity", f"--logs {logs}"))
+        self.refuse(2, "simulate", *self.EVENTS, "--out", self.folder / "raw.csv", says=("gyro.fidelity", "raw log"))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_switches_have_their_true_errors_and_the_page_its_curves(self):
+        result = json.loads(self.succeed("run", *self.EVENTS, "--logs", "none", "--json", "--out", self.folder / "run").stdout)
+        rows = list(csv.DictReader(body_of(self.folder / "run" / "switches.csv").decode().splitlines()))
+        self.assertEqual([int(row["tick"]) for row in rows], [4000 * k for k in range(1, 5)])
+        for row in rows:
+            self.assertLess(abs(float(row["true_error_arcsec"])), 6 * float(row["sigma_arcsec"]))
+        self.assertEqual(result["ticks"], 20_000)
+        self.assertEqual(result["ticks_invalid"], 0)
+        self.assertTrue((self.folder / "run" / "report.html").exists())
+
+    def test_it_says_why_every_half_is_lived(self):
+        result = json.loads(self.succeed("run", *self.EVENTS, "--set", "piezo.hysteresis=0.1", "--logs", "none", "--json", "--out",
+                                         self.folder / "run").stdout)
+        self.assertIn("every half is lived, for piezo.hysteresis = 0.1", " ".join(result["warnings"]))
+
+
 class WhatIsCounted(CliTest):
     """`switches_unrepaired` and `ticks_as_whole_counts` of the summary, against the columns of the logs."""
 

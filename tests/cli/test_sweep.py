@@ -126,6 +126,19 @@ class Rows(SweepTest):
             self.assertEqual(summary["config"]["piezo.half_wave_v"], gyros["piezo.half_wave_v"][k])
 
 
+class FromEventToEvent(SweepTest):
+    def test_a_row_is_what_its_command_gives_alone(self):
+        text = SWEEP.replace("gyros = 12", "gyros = 3").replace("duration_s = 6", "duration_s = 60")
+        text = text.replace("base.switching.interval_s = 2", 'base.switching.interval_s = 15\nbase.gyro.fidelity = "events"')
+        result = json.loads(self.succeed("sweep", self.description(text), "--threads", 2, "--out", self.folder / "r.h5", "--json").stdout)
+        with h5py.File(self.folder / "r.h5") as file:
+            fingerprints = [text.decode() for text in file["gyros/fingerprint"][()]]
+        for shown in result["worst"]:
+            words = shlex.split(shown["command"])
+            alone = self.succeed(*words[1:], "--json", "--quiet", "--out", self.folder / f"run_{shown['gyro']}")
+            self.assertEqual(json.loads(alone.stdout)["fingerprint"], fingerprints[shown["gyro"]])
+
+
 class Page(SweepTest):
     def test_is_written_beside_the_results_and_over_nothing(self):
         page = self.folder / "page.html"

@@ -21,6 +21,7 @@ Work magnetic(CLI::App& app);
 Work intervals(CLI::App& app);
 Work noise_terms(CLI::App& app);
 Work processor_bits(CLI::App& app);
+Work events(CLI::App& app);
 Work maths(CLI::App& app);
 
 // Of every campaign that draws and has threads: the threads change no figure.

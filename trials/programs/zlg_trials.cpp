@@ -29,6 +29,7 @@ constexpr Campaign campaigns[] = {
     {"gyros", "Random gyros without faults in closed loop", gyros},
     {"drift", "Drift of long runs in closed loop", drift},
     {"magnetic", "The magnetic estimator on bases that move", magnetic},
+    {"events", "Gyros by halves and from event to event: the same law of their errors", events},
     {"intervals", "The optimal interval between switches against others", intervals},
     {"noise", "Noise terms of random gyros, fitted, against the truth", noise_terms},
     {"processor", "The image of the processor against this program, bit by bit", processor_bits},

@@ -24,6 +24,10 @@ Motion Motion::with_steps(Motion base, std::shared_ptr<const std::vector<RateSte
 
 double Motion::increment_arcsec(double t0_s, double t1_s) const { return source_->increment_arcsec(t0_s, t1_s); }
 
+void Motion::increments_arcsec(double t0_s, double step_s, std::span<double> out) const {
+    source_->increments_arcsec(t0_s, step_s, out);
+}
+
 double Motion::duration_s() const { return source_->duration_s(); }
 
 double Motion::fastest_arcsec_s() const { return source_->fastest_arcsec_s(); }

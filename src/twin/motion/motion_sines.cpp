@@ -55,6 +55,28 @@ public:
         return sum;
     }
 
+    // The phase of a wave turns on from step to step, anew from its sine at every 64th.
+    void increments_arcsec(double t0_s, double step_s, std::span<double> out) const override {
+        for (double& x : out) x = rate_arcsec_s_ * step_s;
+        for (const Wave& wave : waves_) {
+            const double size = wave.amplitude_arcsec_s * step_s * sinc(0.5 * wave.rad_s * step_s);
+            const double turn = wave.rad_s * step_s;
+            const double turn_sin = core::maths::sin(turn), turn_cos = core::maths::cos(turn);
+            double sine = 0.0, cosine = 0.0;
+            for (std::size_t k = 0; k < out.size(); ++k) {
+                if (k % 64 == 0) {
+                    const double phase = wave.rad_s * (t0_s + (static_cast<double>(k) + 0.5) * step_s) + wave.phase_rad;
+                    sine = size * core::maths::sin(phase);
+                    cosine = size * core::maths::cos(phase);
+                }
+                out[k] += sine;
+                const double next = sine * turn_cos + cosine * turn_sin;
+                cosine = cosine * turn_cos - sine * turn_sin;
+                sine = next;
+            }
+        }
+    }
+
     [[nodiscard]] double fastest_arcsec_s() const override {
         double sum = std::abs(rate_arcsec_s_);
         for (const Wave& wave : waves_) sum += std::abs(wave.amplitude_arcsec_s);

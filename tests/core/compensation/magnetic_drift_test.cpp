@@ -264,4 +264,31 @@ TEST(MagneticDrift, NothingThatIsReadMakesTheStateNotFinite) {
     }
 }
 
+// Of an angle that comes evenly, a leap of n ticks is n steps.
+TEST(MagneticDrift, ALeapIsSoManySteps) {
+    MagneticDriftState lived, leapt;
+    const auto live = [&](MagneticDriftState& state, int ticks, std::int8_t mode, double arcsec) {
+        double sum = 0.0;
+        for (int k = 0; k < ticks; ++k)
+            sum += step(constants, config_of(), state, {.measured = mode != 0, .mode = mode, .angle_arcsec = arcsec});
+        return sum;
+    };
+    std::int8_t mode = 1;
+    for (int segment = 0; segment < 8; ++segment, mode = static_cast<std::int8_t>(-mode)) {
+        const double tick_arcsec = tick_s * (0.2 + mode * (0.9 + 0.02 * segment));
+        for (MagneticDriftState* state : {&lived, &leapt}) live(*state, 40, mode, tick_arcsec);
+        for (const int ticks : {1, 700, 1023, 1024, 1025, 3000}) {
+            const double steps = live(lived, ticks, mode, tick_arcsec);
+            EXPECT_NEAR(leap(constants, config_of(), leapt, ticks, ticks * tick_arcsec), steps,
+                        1e-9 + 1e-6 * std::abs(steps));
+        }
+        for (MagneticDriftState* state : {&lived, &leapt}) live(*state, 3, 0, 0.0);
+    }
+    EXPECT_GT(lived.trust, 0.5);
+    EXPECT_NEAR(leapt.trust, lived.trust, 1e-6);
+    for (unsigned i = 0; i < magnetic_parts; ++i)
+        EXPECT_NEAR(leapt.estimate[i], lived.estimate[i], 1e-7 * (1.0 + std::abs(lived.estimate[i])));
+    EXPECT_NEAR(leapt.subtracted_arcsec, lived.subtracted_arcsec, 1e-6);
+}
+
 }  // namespace zlg::core::magnetic_drift_test

@@ -58,6 +58,7 @@ enum class Cause : std::uint16_t {
     fault_trial,
     random_gyro,
     wire_damage,
+    event_gyro,
     benchmark = 0xfffe,
     test = 0xffff,
 };

@@ -23,6 +23,7 @@ struct LeapPlan {
     std::int64_t before_ticks = 0;  // before the next event
     std::int64_t learn_ticks = 0;   // and before those so many are told half by half: compensation learns the motion
     bool all_singly = false;        // all are
+    twin::DetuningNoise noise{};    // of a digital loop
 };
 
 // start   the balance of the light is a mean over 400 ticks (light_balance.hpp), twice as long lived; by phase five
@@ -30,9 +31,11 @@ struct LeapPlan {
 // after   the longest window behind a gap, twelve time constants of the loop for what its miss leaves, and the ticks in
 //         which a half of it is still judged or corrected
 // before  the longest window before a gap, and twelve time constants
+// noise   the loop u <- u - g (dl + e), e the noise of a mean of samples and of the converter's steps, settles at
+//         sigma^2 = e^2 g/(2 - g), and keeps 1 - g of it
 // learn   the time in which what is learnt of the motion is forgotten to 1/e (gap_bridge_state.hpp)
-[[nodiscard]] LeapPlan leap_plan(const config::Config& config, const core::GyroCompensationConfig& compensation,
-                                 const twin::Motion& motion);
+[[nodiscard]] LeapPlan leap_plan(const config::Config& config, const core::GyroControlConfig& control,
+                                 const core::GyroCompensationConfig& compensation, const twin::Motion& motion);
 
 // Why a gyro of fidelity `events` lives every half; empty where it leaps.
 [[nodiscard]] std::string why_lived(const config::Config& config, const twin::Motion& motion);

@@ -34,6 +34,9 @@ public:
     // A leap of the loop, between two ticks.
     void leap(const rig::Leap& leap);
 
+    // So many ticks of a loop, lived and leapt over.
+    void follow(rig::ClosedLoop& loop, std::int64_t ticks);
+
     // As delivered up to the last whole tick.
     [[nodiscard]] double angle_arcsec() const { return replay_.angle_arcsec(); }
 

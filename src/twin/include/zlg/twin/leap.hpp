@@ -20,6 +20,22 @@ struct QuietHalf {
     std::int8_t bias_sign = 1;
 };
 
+// Of the detuning in a digital loop: AR(1) from half to half, x <- kept x + white noise, of standard deviation sigma.
+//
+//   sum of s x^2, s = +-1 in turn, over n halves: variance 2 n sigma^4 (1 - kept^2)/(1 + kept^2)
+//
+// for x^2 is correlated by kept^(2 k) over k halves, and the sum has its spectrum at half of the rate.
+struct DetuningNoise {
+    double sigma_lambda = 0.0;
+    double kept = 0.0;
+};
+
+// How a leap is made.
+struct LeapWay {
+    bool singly = false;    // every half is told; the walk is then drawn half by half
+    DetuningNoise noise{};  // none of an analog loop, whose integrator does not see the light that is sampled
+};
+
 struct Leap {
     std::int64_t halves = 0;       // even
     double dtheta_arcsec = 0.0;    // rotation of the case

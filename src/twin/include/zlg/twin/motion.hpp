@@ -4,6 +4,7 @@
 // Increments are exact differences of that angle, so they add up to it whatever the steps.
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace zlg::twin {
@@ -36,6 +37,9 @@ public:
 
     // Rotation from t0_s to t1_s. Beyond the end of sampled motion the case rests.
     [[nodiscard]] double increment_arcsec(double t0_s, double t1_s) const;
+
+    // Those of equal steps from t0_s on, to 1e-12 of the fastest.
+    void increments_arcsec(double t0_s, double step_s, std::span<double> out) const;
 
     // Length of sampled motion; infinite for analytic motion.
     [[nodiscard]] double duration_s() const;

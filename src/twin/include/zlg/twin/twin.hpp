@@ -44,9 +44,7 @@ public:
     // Of the piezo, when so many quiet halves have passed. It changes in one direction only.
     [[nodiscard]] double voltage_after(std::int64_t halves);
     // Pass over so many quiet halves, an even number.
-    //
-    // singly  whether each of them is told; the walk is then drawn half by half.
-    Leap leap(std::int64_t halves, bool singly = false);
+    Leap leap(std::int64_t halves, const LeapWay& way = {});
 
 private:
     std::unique_ptr<Gyro> gyro_;
