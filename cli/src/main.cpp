@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     cli::add_inspect(program);
     cli::add_lab(program);
     cli::add_analyze(program);
+    cli::add_accept(program);
     cli::complete_help(program);
     const cli::InterruptGuard guard;
     return cli::run_program(program, argc, argv);
