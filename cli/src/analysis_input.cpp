@@ -12,6 +12,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/replay.hpp>
+#include <zlg/study/tick_rates.hpp>
 
 #include "failure.hpp"
 #include "mapping_input.hpp"
@@ -22,72 +23,12 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-// What was not measured: bridged, or not even that.
-constexpr std::uint32_t not_measured = core::flag_switching | core::flag_extrapolated | core::flag_interpolated |
-                                       core::flag_unrepaired | core::flag_loop_unlocked | core::flag_invalid |
-                                       core::flag_mode_mixed;
-
-// Ticks as they come, as rates.
-class TickRates {
-public:
-    TickRates(const std::string& path, double tick_s) : tick_s_(tick_s) {
-        axis_.name = name_of_file(path);
-        axis_.group = path;
-        axis_.holds = fmt::format("final angle of ticks of {} s", tick_s);
-        axis_.rate_hz = 1.0 / tick_s;
-    }
-
-    void take(const core::AngleRow& row, double truth_arcsec = missing) {
-        const double angle = row.dtheta_final_arcsec;
-        const bool known = (row.flags & not_measured) == 0;
-        axis_.rates_arcsec_s.push_back(known ? angle / tick_s_ : missing);
-        axis_.bridged_arcsec_s.push_back(angle / tick_s_);
-        axis_.mode.push_back(row.mode);
-        if (std::isfinite(truth_arcsec)) truth_.push_back(truth_arcsec / tick_s_);
-    }
-
-    // The angle, and its error where the truth is known.
-    void finish(std::vector<study::AxisRecord>& axes) {
-        if (truth_.size() == axis_.rates_arcsec_s.size() && !truth_.empty()) {
-            study::AxisRecord error = axis_;
-            error.name += ", error";
-            error.group += " error";
-            error.is_error = true;
-            error.holds = "error of the " + error.holds;
-            for (std::size_t k = 0; k < truth_.size(); ++k) {
-                error.rates_arcsec_s[k] -= truth_[k];
-                error.bridged_arcsec_s[k] -= truth_[k];
-            }
-            axes.push_back(std::move(axis_));
-            axes.push_back(std::move(error));
-            return;
-        }
-        axes.push_back(std::move(axis_));
-    }
-
-    [[nodiscard]] bool empty() const { return axis_.rates_arcsec_s.empty(); }
-
-private:
-    study::AxisRecord axis_;
-    std::vector<double> truth_;
-    double tick_s_;
-};
-
-// The times of the rows must bear out the length of a tick.
-void check_tick(const std::string& path, double tick_s, double first_s, const logs::TimedAngle& last) {
-    if (last.row.tick < 1) return;
-    const double by_times_s = (last.t_s - first_s) / static_cast<double>(last.row.tick);
-    if (std::fabs(by_times_s - tick_s) <= 1e-3 * tick_s) return;
-    throw logs::FormatError{fmt::format("{}: tick_s = {}, and the column t_s has ticks of {} s; allowed is one value",
-                                        path, tick_s, by_times_s)};
-}
-
 config::Config read_angles(const Options& options, const std::string& path, std::vector<study::AxisRecord>& axes) {
     logs::AngleReader reader{path};
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
     const config::Config config = load_log_config(options, reader.header().settings, path, LogFacts::tick);
     note_former_keys(reader.header().settings, path);
-    TickRates ticks(path, config.gyro.tick_s);
+    study::TickRates ticks(name_of_file(path), path, config.gyro.tick_s);
     logs::TimedAngle angle;
     Progress progress;
     double first_s = missing;
@@ -99,7 +40,7 @@ config::Config read_angles(const Options& options, const std::string& path, std:
     if (!reader.header().complete)
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", path));
     if (ticks.empty()) throw logs::FormatError{fmt::format("{}: holds no tick", path)};
-    check_tick(path, config.gyro.tick_s, first_s, angle);
+    study::check_tick(path, config.gyro.tick_s, first_s, angle);
     ticks.finish(axes);
     return config;
 }
@@ -108,7 +49,7 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
     logs::RawReader raw = open_raw(options, path);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
     const recorded::LogCompensation asked = log_compensation(options, raw.header(), path);
-    TickRates ticks(path, asked.config.gyro.tick_s);
+    study::TickRates ticks(name_of_file(path), path, asked.config.gyro.tick_s);
     rig::Replay replay{asked.compensation};
     const auto take = [&](const core::AngleRow& row) { ticks.take(row); };
     core::HalfRecord record;

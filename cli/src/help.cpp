@@ -66,6 +66,10 @@ constexpr std::array verb_table{
     VerbHelp{"analyze", analysing,
              "  zlg analyze angles.h5 --out analysis.html\n"
              "  zlg analyze rates.csv --map axis=gyro_z --map unit=deg/s --map holds=rate --map rate_hz=100"},
+    VerbHelp{"accept", analysing,
+             "  zlg accept --plan static.csv table.csv --out plan.toml\n"
+             "  zlg accept plan.toml --out report.html        exit status 1 where a limit is not met\n"
+             "  zlg accept --verify report.html static.csv table.csv"},
     VerbHelp{"design", designing,
              "  zlg design --out design.html\n"
              "  zlg design --set drift.magnetic_arcsec_s=2 --run-lengths 600,3600\n"

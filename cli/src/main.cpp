@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
     cli::add_lab(program);
     cli::add_settings(program);
     cli::add_analyze(program);
+    cli::add_accept(program);
     cli::complete_help(program);
     const cli::InterruptGuard guard;
     return cli::run_program(program, argc, argv);

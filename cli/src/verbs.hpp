@@ -19,6 +19,7 @@ void add_import(CLI::App& program);
 void add_follow(CLI::App& program);
 void add_inspect(CLI::App& program);
 void add_analyze(CLI::App& program);
+void add_accept(CLI::App& program);
 void add_lab(CLI::App& program);
 void add_settings(CLI::App& program);
 

@@ -1,3 +1,4 @@
+#include <zlg/acceptance/report.hpp>
 #include <zlg/config/config.hpp>
 #include <zlg/paper/paper.hpp>
 #include <zlg/report/page.hpp>
@@ -146,6 +147,21 @@ py::dict analyze(const config::Config& config, Axes& axes, std::int64_t settling
     return py::dict("axes"_a = all, "earth"_a = fields_list(result.earth), "page"_a = html);
 }
 
+// The record as JSON, and the page.
+py::tuple accept(const std::string& plan, const config::Config& said, int threads, const py::object& progress) {
+    const Progress notify{progress};
+    std::string record, html;
+    {
+        const py::gil_scoped_release released;
+        const acceptance::Acceptance test =
+            acceptance::accept({.plan = plan, .said = said, .threads = threads, .on_progress = std::cref(notify)});
+        const report::Page page = acceptance::acceptance_page(test, "zlg.accept in Python");
+        record = page.data;
+        html = acceptance::report_html(page);
+    }
+    return py::make_tuple(record, html);
+}
+
 }  // namespace
 
 void bind_study(py::module_& m) {
@@ -155,6 +171,7 @@ void bind_study(py::module_& m) {
         .def("add", &Axes::add, "name"_a, "group"_a, "rate_hz"_a, "rates_arcsec_s"_a, "mode"_a, "bridged_arcsec_s"_a,
              "phase_arcsec"_a, "warnings"_a);
     m.def("analyze", &analyze, "config"_a, "axes"_a, "settling_samples"_a, "threads"_a, "progress"_a);
+    m.def("accept", &accept, "plan"_a, "said"_a, "threads"_a, "progress"_a);
     m.def("paper", &paper, "config"_a, "threads"_a, "switches_per_point"_a, "progress"_a);
 }
 

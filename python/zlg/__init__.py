@@ -3,14 +3,15 @@
     import zlg
     result = zlg.run(zlg.Config.of("run.duration_s=600"))
 
-Modules: `config`, `logs`, `twin`, `core`, `rig`, `design`, `analysis`, `calibration`, `line`, `study`, `sweeps`. Arrays are NumPy's; what C++ computed is handed over
+Modules: `acceptance`, `config`, `logs`, `twin`, `core`, `rig`, `design`, `analysis`, `calibration`, `line`, `study`, `sweeps`. Arrays are NumPy's; what C++ computed is handed over
 without a copy, and contiguous arrays of the right type are read where they are. Names carry their unit; 1 arcsec/s is 1 deg/h.
 Long calls release the interpreter. `run`, `simulate`, `compensate`, `calibrate`, `paper`, `analyze`, `sweep` and the readers and writers of logs
 take `progress`, a function of the fraction done, and end on Ctrl-C, as `follow` does; a deviation, a fit and `design_gyro` go on to their end.
 """
 
-from . import _zlg, analysis, calibration, config, core, design, line, logs, rig, study, sweeps, twin
+from . import _zlg, acceptance, analysis, calibration, config, core, design, line, logs, rig, study, sweeps, twin
 from ._zlg import ConfigError, DesignError, Error, FormatError, IoError, MappingError, SeriesError
+from .acceptance import Acceptance, accept
 from .calibration import Calibration, calibrate
 from .config import Config
 from .line import follow
@@ -23,6 +24,7 @@ from .sweeps import read_sweep, sweep
 __version__: str = _zlg.version
 
 __all__ = [
+    "Acceptance",
     "Calibration",
     "Config",
     "ConfigError",
@@ -34,6 +36,8 @@ __all__ = [
     "RunResult",
     "SeriesError",
     "__version__",
+    "accept",
+    "acceptance",
     "analysis",
     "analyze",
     "calibrate",

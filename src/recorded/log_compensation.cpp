@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <zlg/config/log_settings.hpp>
+#include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/wiring.hpp>
@@ -79,6 +80,24 @@ core::Hertz timer_of(const config::Config& config, const logs::RawHeader& log) {
 }
 
 }  // namespace
+
+config::Config config_of_log(const config::Config& said, const config::Settings& of_log, const std::string& path,
+                             bool scale_is_used) {
+    config::Settings settings;
+    config::Config config;
+    try {
+        settings = config::checked_log_settings(of_log, path);
+        config::apply_log(config, settings, path);
+    } catch (const config::ConfigError& error) {
+        throw logs::FormatError{error.what()};
+    }
+    for (const auto& [key, value] : config::to_settings(said))
+        if (said.given.contains(key)) config::apply_pair(config, key, value, "the configuration");
+    config::require_log_facts(config, path, scale_is_used);
+    config::check_compensation(config);
+    config::check_against_log(config, settings, path);
+    return config;
+}
 
 LogCompensation log_compensation(const config::Config& config, const logs::RawHeader& log,
                                  const std::string& log_name) {

@@ -158,6 +158,14 @@ std::string section_of(const Section& section, std::size_t index, Counters& coun
     return out + "</section>\n";
 }
 
+// No text of it may end the element.
+std::string data_of(const Page& page) {
+    if (page.data.empty()) return "";
+    std::string out;
+    for (const char c : page.data) out += c == '<' ? std::string{"\\u003c"} : std::string{c};
+    return fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n", out);
+}
+
 std::string hint(const Page& page) {
     if (std::ranges::all_of(page.sections, [](const Section& s) { return s.figures.empty(); })) return "";
     return "<p class=\"hint\">Figures: point at a curve, or focus a figure and press the arrow keys, for its values; "
@@ -181,7 +189,7 @@ std::string html(const Page& page) {
            hint(page);
     out += "</header>\n" + contents(page) + "<main>\n";
     for (std::size_t i = 0; i < page.sections.size(); ++i) out += section_of(page.sections[i], i, counters);
-    return out + fmt::format("</main>\n</body>\n<script>{}</script>\n</html>\n", page_js);
+    return out + fmt::format("</main>\n{}</body>\n<script>{}</script>\n</html>\n", data_of(page), page_js);
 }
 
 }  // namespace zlg::report

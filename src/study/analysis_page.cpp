@@ -212,6 +212,17 @@ report::Section table_section(const config::Analysis& config, const TableResult&
 
 }  // namespace
 
+std::vector<report::Figure> axis_figures(const config::Analysis& config, const AxisResult& axis, std::size_t index) {
+    static const std::optional<PresumedNoise> none;
+    const View v{.config = config, .axis = axis, .index = index, .presumed = none};
+    std::vector<report::Figure> figures{course_figure(v)};
+    if (!axis.curves.empty() && can_be_drawn(axis.curves.front())) figures.push_back(sigma_figure(v));
+    if (!axis.modes || axis.modes->segments.size() < 2) return figures;
+    if (!axis.modes->points.empty()) figures.push_back(split_figure(v));
+    if (!axis.modes->switches.empty()) figures.push_back(switch_figure(v));
+    return figures;
+}
+
 report::Page analysis_page(const config::Analysis& config, const AnalysisResult& result) {
     report::Page page{
         .title = "Noise of recorded gyros",

@@ -44,23 +44,6 @@ void check(const CalibrationTask& task) {
                 throw config::ConfigError{fmt::format("{}: is named twice; each log counts once", task.logs[k])};
 }
 
-config::Config config_of(const config::Config& said, const config::Settings& of_log, const std::string& path) {
-    config::Settings settings;
-    config::Config config;
-    try {
-        settings = config::checked_log_settings(of_log, path);
-        config::apply_log(config, settings, path);
-    } catch (const config::ConfigError& error) {
-        throw logs::FormatError{error.what()};
-    }
-    for (const auto& [key, value] : config::to_settings(said))
-        if (said.given.contains(key)) config::apply_pair(config, key, value, "the configuration");
-    config::require_log_facts(config, path);
-    config::check_compensation(config);
-    config::check_against_log(config, settings, path);
-    return config;
-}
-
 calibration::LabLog read(logs::RawReader& raw, const std::string& path, double tick_s, rig::BiasCheck& signs,
                          const std::function<void(double)>& on_progress) {
     calibration::LabReader reader{path, tick_s};
@@ -87,7 +70,7 @@ Lab read_all(const CalibrationTask& task) {
         if (header.has_edge_offset)
             lab.warnings.push_back(
                 fmt::format("{}: the shifts of the bias edges are left in its counts, as noise", path));
-        lab.configs.push_back(config_of(task.said, header.settings, path));
+        lab.configs.push_back(recorded::config_of_log(task.said, header.settings, path));
         lab.recorded.push_back(recorded::as_recorded(lab.configs.back(), header.settings, path));
         const auto notify = [&](double of_log) {
             if (task.on_progress) task.on_progress((static_cast<double>(k) + of_log) / n_logs);

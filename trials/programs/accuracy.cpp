@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
+#include <zlg/trials/accept_campaign.hpp>
 #include <zlg/trials/accuracy.hpp>
 #include <zlg/trials/noise_campaign.hpp>
 #include <zlg/trials/sigma_campaign.hpp>
@@ -130,6 +133,20 @@ Work noise_terms(CLI::App& app) {
     return [task] {
         fmt::print("{}", campaign_text(run_noise_campaign(*task)));
         return 0;
+    };
+}
+
+Work accept_units(CLI::App& app) {
+    const auto task = std::make_shared<AcceptCampaignTask>();
+    app.add_option("UNITS", task->n_units)->check(CLI::PositiveNumber);
+    app.add_option("--seed", task->seed);
+    return [task] {
+        task->folder = std::filesystem::temp_directory_path() / fmt::format("zlg-accept-{}", ::getpid());
+        std::filesystem::create_directories(task->folder);
+        const AcceptCampaign campaign = run_accept_campaign(*task);
+        std::filesystem::remove_all(task->folder);
+        fmt::print("{}", campaign_text(campaign));
+        return campaign.is_good() ? 0 : 1;
     };
 }
 

@@ -20,6 +20,7 @@ Work drift(CLI::App& app);
 Work magnetic(CLI::App& app);
 Work intervals(CLI::App& app);
 Work noise_terms(CLI::App& app);
+Work accept_units(CLI::App& app);
 Work processor_bits(CLI::App& app);
 Work events(CLI::App& app);
 Work maths(CLI::App& app);

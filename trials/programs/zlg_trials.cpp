@@ -32,6 +32,7 @@ constexpr Campaign campaigns[] = {
     {"events", "Gyros by halves and from event to event: the same law of their errors", events},
     {"intervals", "The optimal interval between switches against others", intervals},
     {"noise", "Noise terms of random gyros, fitted, against the truth", noise_terms},
+    {"accept", "Verdicts of acceptance tests against the truth", accept_units},
     {"processor", "The image of the processor against this program, bit by bit", processor_bits},
 #ifdef ZLG_HAS_MPFR
     {"maths", "Elementary functions against MPFR", maths},

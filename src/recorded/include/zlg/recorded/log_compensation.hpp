@@ -20,6 +20,13 @@ struct LogCompensation {
     std::vector<std::string> warnings;  // what was asked and is not done
 };
 
+// What a log says of itself, and over it the keys that `said` was given.
+//
+// errors  logs::FormatError for the log's settings; config::ConfigError: a tick or scale that nobody says or that are
+//         contradicted, and what else the compensation of a log depends on.
+[[nodiscard]] config::Config config_of_log(const config::Config& said, const config::Settings& of_log,
+                                           const std::string& path, bool scale_is_used = true);
+
 // compensation.relock unset: mean_square where the log has the column for it, none where not; an explicit method is
 // obeyed or refused.
 //

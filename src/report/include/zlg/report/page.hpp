@@ -41,6 +41,7 @@ struct Page {
     std::vector<Link> links{};  // after the lead
     std::vector<Section> sections{};
     bool numbered = true;  // false where titles and captions bring numbers of their own
+    std::string data{};    // JSON that a program finds in the page, in the element with the id `data`; empty: none
 };
 
 [[nodiscard]] std::string html(const Page& page);

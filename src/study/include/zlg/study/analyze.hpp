@@ -9,6 +9,7 @@
 #include <zlg/calibration/rate_table.hpp>
 #include <zlg/config/config.hpp>
 #include <zlg/noise/noise_units.hpp>
+#include <zlg/report/figure.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/axis.hpp>
 
@@ -63,6 +64,11 @@ inline constexpr double earth_rate_arcsec_s = 15.041067;
 
 // The Allan deviation of what was fitted, term by term and together, is drawn beside what was measured.
 [[nodiscard]] report::Page analysis_page(const config::Analysis& config, const AnalysisResult& result);
+
+// What the page shows of one axis: its course, its deviation with the fitted terms and, of a switched gyro, the drift
+// by mode and the errors of the switches. `index` makes their names different from those of another axis.
+[[nodiscard]] std::vector<report::Figure> axis_figures(const config::Analysis& config, const AxisResult& axis,
+                                                       std::size_t index);
 
 // A rate in the unit that the configuration shows, and its name.
 [[nodiscard]] double shown_rate(config::ShownRate unit, double arcsec_s);

@@ -1,0 +1,82 @@
+"""The acceptance test of a gyro from its logs."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any, Optional
+
+from . import _zlg
+from ._columns import Progress, made_of
+from ._shown import Shown, table_html
+from .config import Config, checked
+from .logs import Path
+
+__all__ = ["Acceptance", "Quantity", "accept"]
+
+
+@dataclass(repr=False)
+class Quantity(Shown):
+    """What the logs say of one quantity, and the verdict."""
+
+    #: with its unit, "bias.deg_h"
+    name: str
+    #: None: not determined
+    value: Optional[float]
+    #: one standard deviation
+    uncertainty: Optional[float]
+    #: of the uncertainty; None: known
+    degrees_of_freedom: Optional[float]
+    #: "min" and "max", as far as the plan has them; None: no limit
+    limit: Optional[dict[str, float]]
+    #: "pass", "fail", "undecided", "not determined"; None: no limit
+    verdict: Optional[str]
+    #: that the truth lies beyond the limit, of what passes
+    risk: float
+    #: of such a record, that would decide; None: no time does, or it is decided
+    more_hours: Optional[float]
+    reason: str
+
+
+@dataclass(repr=False)
+class Acceptance(Shown):
+    """What `accept` gives."""
+
+    #: whether every limit is met
+    passed: bool
+    #: serial, type, ... as the plan has them
+    unit: dict[str, Any]
+    risk: float
+    #: that a unit which passes all limits lies beyond one
+    unit_risk: float
+    quantities: list[Quantity]
+    #: files with their checksums, notes, and why a run is no measurement
+    runs: list[dict[str, Any]]
+    #: the page, as `zlg accept --out` writes it
+    html: str
+
+    def __getitem__(self, name: str) -> Quantity:
+        """The quantity of a name, "bias.deg_h". Raises KeyError."""
+        for quantity in self.quantities:
+            if quantity.name == name:
+                return quantity
+        raise KeyError(name)
+
+    def write(self, path: Path, force: bool = False) -> None:
+        """Write the page. Raises IoError; a file is not overwritten without `force`."""
+        _zlg.write_text(os.fspath(path), self.html, force)
+
+    def _repr_html_(self) -> str:
+        rows = [[q.name, str(q.value), str(q.uncertainty), str(q.limit), str(q.verdict)] for q in self.quantities]
+        return table_html(str(self.unit["serial"]), ["quantity", "value", "+-", "limit", "verdict"], rows)
+
+
+def accept(plan: Path, config: Optional[Config] = None, *, threads: int = 1, progress: Progress = None) -> Acceptance:
+    """What `zlg accept` does: the plan, a file of TOML, carried out on its logs.
+
+    config  what it was given goes over what the logs say.
+    Raises ConfigError, MappingError, IoError, FormatError, as the program refuses.
+    """
+    record, html = _zlg.accept(os.fspath(plan), checked(config), threads, progress)
+    return made_of(Acceptance, {**json.loads(record), "html": html})

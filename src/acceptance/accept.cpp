@@ -1,0 +1,195 @@
+#include <zlg/acceptance/accept.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/content_hash.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/study/how_made.hpp>
+
+#include "moved_values.hpp"
+#include "values.hpp"
+
+namespace zlg::acceptance {
+namespace {
+
+bool is_still(RunKind kind) { return kind == RunKind::at_rest || kind == RunKind::switching; }
+
+double hours_of(const RunRecord& record) {
+    double hours = 0.0;
+    for (const study::AxisRecord& axis : record.axes)
+        hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
+    return hours;
+}
+
+class Test {
+public:
+    explicit Test(const AcceptTask& task) : task_{task} {
+        result_.plan = read_plan(task.plan);
+        result_.plan_checksum = logs::hash_of_file(task.plan);
+        result_.settings = study::own_settings(task.said);
+    }
+
+    Acceptance finish() {
+        for (const Run& run : result_.plan.runs) {
+            if (task_.on_progress)
+                task_.on_progress(static_cast<double>(run.number - 1) / static_cast<double>(result_.plan.runs.size()));
+            records_.push_back(read_run(result_.plan, run, task_.said));
+            analyze(records_.back());
+        }
+        look_for_twins();
+        const Found moved = moved_values();
+        std::ranges::for_each(records_, [this](const RunRecord& record) { note(record); });
+        std::vector<Value> values = moved.values;
+        const auto take = [&](std::vector<Value> more) { std::ranges::move(more, std::back_inserter(values)); };
+        // What raw logs tell goes before what the noise of any record does.
+        if (const auto raw = raw_logs(); !raw.empty()) take(constants(raw));
+        if (!still_.empty()) take(still_values(result_.plan, still_));
+        if (const auto switches = all_switches(); !switches.empty()) take(switch_values(switches, still_));
+        for (const QuantityInfo& q : quantities()) judge_one(q, values);
+        result_.unit_risk = unit_risk(result_.quantities);
+        return std::move(result_);
+    }
+
+private:
+    void analyze(RunRecord& record) {
+        const RunKind kind = record.run->kind;
+        if (!is_still(kind) && kind != RunKind::magnetic) return;
+        const study::AnalysisTask task{.config = task_.said.analysis, .threads = task_.threads, .with_page = true};
+        for (study::AxisRecord& axis : record.axes) {
+            try {
+                StillAxis found{.run = record.run, .result = study::analyze_axis(task, std::move(axis))};
+                if (const std::string why = wrong_way(result_.plan, found); !why.empty()) record.stops.push_back(why);
+                std::ranges::move(study::axis_figures(task.config, found.result, still_.size() + in_field_.size()),
+                                  std::back_inserter(result_.figures));
+                hours_[record.run->number] +=
+                    static_cast<double>(found.result.n_samples) / found.result.rate_hz / 3600.0;
+                (is_still(kind) ? still_ : in_field_).push_back(std::move(found));
+            } catch (const deviations::SeriesError& error) {
+                record.stops.emplace_back(error.what());
+            }
+        }
+    }
+
+    Found moved_values() {
+        Found all;
+        const auto of_kind = [&](RunKind kind) {
+            std::vector<RunRecord*> found;
+            for (RunRecord& record : records_)
+                if (record.run->kind == kind && !record.axes.empty()) found.push_back(&record);
+            return found;
+        };
+        const auto take = [&](Found found) {
+            std::ranges::move(found.values, std::back_inserter(all.values));
+            std::ranges::move(found.figures, std::back_inserter(result_.figures));
+        };
+        if (const auto tables = of_kind(RunKind::rate_table); !tables.empty())
+            take(table_values(result_.plan, tables, task_.said.analysis));
+        if (const auto warmed = of_kind(RunKind::temperature); !warmed.empty()) take(temperature_values(warmed));
+        if (const auto cold = of_kind(RunKind::warm_up); !cold.empty()) take(warm_up_values(result_.plan, cold));
+        if (!in_field_.empty()) take(magnetic_values(result_.plan, in_field_));
+        return all;
+    }
+
+    void note(const RunRecord& record) {
+        const Run& run = *record.run;
+        TestedRun tested{.number = run.number,
+                         .kind = run.kind,
+                         .hours = hours_.contains(run.number) ? hours_[run.number] : hours_of(record),
+                         .logs = {},
+                         .notes = record.notes,
+                         .stops = record.stops};
+        for (const LogRecord& log : record.logs) tested.logs.push_back({log.file, log.checksum});
+        result_.runs.push_back(std::move(tested));
+    }
+
+    // The same measurement under two names would agree with itself too well.
+    void look_for_twins() const {
+        for (std::size_t k = 0; k < records_.size(); ++k)
+            for (std::size_t j = 0; j < k; ++j)
+                if (records_[j].run->kind == records_[k].run->kind)
+                    for (const LogRecord& log : records_[k].logs)
+                        if (std::ranges::find(records_[j].logs, log.checksum, &LogRecord::checksum) !=
+                            records_[j].logs.end())
+                            throw logs::FormatError(fmt::format(
+                                "{}: is a log of run {} once more; each measurement counts once", log.path, j + 1));
+    }
+
+    [[nodiscard]] std::vector<std::string> raw_logs() const {
+        std::vector<std::string> all;
+        for (const RunRecord& record : records_)
+            if (record.run->kind != RunKind::rate_table && record.run->kind != RunKind::magnetic &&
+                record.stops.empty())
+                all.insert(all.end(), record.raw_logs.begin(), record.raw_logs.end());
+        return all;
+    }
+
+    [[nodiscard]] std::vector<SwitchRecord> all_switches() const {
+        std::vector<SwitchRecord> all;
+        for (const RunRecord& record : records_)
+            if (is_still(record.run->kind)) all.insert(all.end(), record.switches.begin(), record.switches.end());
+        return all;
+    }
+
+    [[nodiscard]] std::vector<Value> constants(const std::vector<std::string>& raw) const {
+        config::Config said = task_.said;
+        const auto& nominal = result_.plan.unit.scale_arcsec;
+        const auto agrees = [&](const RunRecord& r) {
+            return std::ranges::all_of(r.configs,
+                                       [&](const config::Config& c) { return c.gyro.scale_arcsec == *nominal; });
+        };
+        if (nominal && std::ranges::all_of(records_, agrees))
+            config::apply_pair(said, "gyro.scale_arcsec", fmt::format("{}", *nominal), result_.plan.path);
+        std::vector<std::string> ignored;
+        const auto open = [&](const std::string& path) {
+            for (const RunRecord& record : records_)
+                if (std::ranges::count(record.raw_logs, path) > 0) return open_raw(*record.run, path, ignored);
+            throw logs::IoError(fmt::format("{}: is no log of the plan", path));
+        };
+        return constant_values(
+            study::calibrate({.logs = raw, .rate_arcsec_s = {}, .said = said, .open = open, .on_progress = {}}));
+    }
+
+    // A run whose values are no measurements leaves open all that it would have told.
+    [[nodiscard]] std::optional<std::string> stopped(const QuantityInfo& q) const {
+        for (const TestedRun& run : result_.runs)
+            if (!run.stops.empty() && std::ranges::find(q.kinds, run.kind) != q.kinds.end())
+                return fmt::format("run {} is no measurement: {}", run.number, run.stops.front());
+        return std::nullopt;
+    }
+
+    void judge_one(const QuantityInfo& q, const std::vector<Value>& values) {
+        const auto found = std::ranges::find(values, q.name, &Value::name);
+        Value value = found != values.end() ? *found : not_determined(q.name, fmt::format("needs {}", q.needs));
+        if (const auto why = stopped(q)) value = not_determined(q.name, *why);
+        const auto limit = std::ranges::find(result_.plan.limits, q.name, &Limit::name);
+        result_.quantities.push_back(
+            judge(value, limit == result_.plan.limits.end() ? std::nullopt : std::optional{*limit}, result_.plan.risk));
+    }
+
+    const AcceptTask& task_;
+    Acceptance result_;
+    std::vector<RunRecord> records_;
+    std::vector<StillAxis> still_, in_field_;
+    std::map<int, double> hours_;
+};
+
+}  // namespace
+
+bool Acceptance::passed() const {
+    bool any = false;
+    for (const Judged& one : quantities) {
+        if (!one.limit) continue;
+        any = true;
+        if (one.verdict != Verdict::pass) return false;
+    }
+    return any;
+}
+
+Acceptance accept(const AcceptTask& task) { return Test{task}.finish(); }
+
+}  // namespace zlg::acceptance

@@ -1,0 +1,53 @@
+#pragma once
+// What an acceptance test can say of a gyro: the names, units and definitions, and a value with what is known of its
+// error.
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <zlg/acceptance/plan.hpp>
+
+namespace zlg::acceptance {
+
+struct QuantityInfo {
+    std::string_view name;  // "bias.deg_h"
+    std::string_view words;
+    std::string_view unit;   // as people write it
+    std::string_view needs;  // the log from which it follows
+    std::vector<RunKind> kinds;
+};
+
+[[nodiscard]] std::span<const QuantityInfo> quantities();
+// nullptr: there is none.
+[[nodiscard]] const QuantityInfo* find_quantity(std::string_view name);
+// Of a name that is none: the nearest one, and the unit where only that is wrong.
+[[nodiscard]] std::string unknown_quantity(std::string_view name);
+
+// How the estimate scatters about the truth.
+enum class Law {
+    student,       // value + uncertainty t, t of Student's law
+    chi,           // a standard deviation: degrees value^2/truth^2 of the chi-square law
+    poisson,       // events in `hours`, divided by them
+    without_error  // counted, or read
+};
+
+struct Value {
+    std::string name;
+    bool determined = false;
+    double value = std::numeric_limits<double>::quiet_NaN();
+    double uncertainty = std::numeric_limits<double>::quiet_NaN();  // one standard deviation
+    double degrees = std::numeric_limits<double>::infinity();       // of freedom of that uncertainty
+    Law law = Law::student;
+    double hours = 0.0;  // of the record from which it comes
+    std::string reason;  // why it is not determined, or what the value is
+    // The uncertainty after so many hours by the fitted noise; empty: it falls with the square root of time.
+    std::function<double(double)> uncertainty_after{};
+};
+
+[[nodiscard]] Value not_determined(std::string_view name, std::string reason);
+
+}  // namespace zlg::acceptance

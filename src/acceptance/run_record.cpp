@@ -1,0 +1,222 @@
+#include "run_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include <zlg/config/schema.hpp>
+#include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/content_hash.hpp>
+#include <zlg/logs/error.hpp>
+#include <zlg/logs/imported.hpp>
+#include <zlg/logs/log_kind.hpp>
+#include <zlg/recorded/log_compensation.hpp>
+#include <zlg/rig/replay.hpp>
+#include <zlg/study/tick_rates.hpp>
+#include <zlg/text/escape.hpp>
+
+#include "switch_reader.hpp"
+
+namespace zlg::acceptance {
+namespace {
+
+namespace fs = std::filesystem;
+using logs::LogKind;
+
+std::string file_name(const std::string& path) { return fs::path{path}.filename().string(); }
+
+bool is_raw(LogKind kind) { return kind == LogKind::raw_csv || kind == LogKind::raw_hdf5; }
+bool is_angles(LogKind kind) { return kind == LogKind::angle_csv || kind == LogKind::angle_hdf5; }
+
+bool is_mapped(const Run& run) {
+    const auto keys = run.mapping.keys_set();
+    return std::ranges::any_of(keys, [](const std::string& key) { return key != "axis"; });
+}
+
+// Beside the plan, unless the name says where.
+std::string path_of(const Plan& plan, const std::string& file) {
+    return (fs::path{plan.path}.parent_path() / file).lexically_normal().string();
+}
+
+std::string bare(const std::string& serial) {
+    std::string text;
+    for (const char c : serial)
+        if (c != '"' && c != '\'' && c != ' ') text += c;
+    return text;
+}
+
+void require_serial(const Plan& plan, const std::string& found, const std::string& where) {
+    if (bare(found) == bare(plan.unit.serial)) return;
+    throw config::ConfigError(fmt::format("{}: is of the gyro with serial '{}', the plan is of '{}'", where,
+                                          text::excerpt(found, 60, ' '), text::excerpt(plan.unit.serial, 60, ' ')));
+}
+
+void check_serial(const Plan& plan, const logs::Settings& settings, const std::string& path) {
+    for (const auto& [key, value] : settings) {
+        const std::string last = key.substr(key.find_last_of('.') + 1);
+        if (last == "serial" || last == "serial_number") require_serial(plan, value, path);
+    }
+}
+
+// "Serial number: 17", "S/N;17" above the columns.
+void check_serial(const Plan& plan, const std::vector<std::string>& head, const std::string& path) {
+    static const std::regex serial{R"((?:serial(?:[ _]?(?:number|no\.?|nr\.?))?|s/n)\s*[:=;,\t ]\s*"?([^\s;,"]+))",
+                                   std::regex::icase};
+    for (const std::string& line : head) {
+        std::smatch found;
+        const std::string start = line.substr(0, 400);
+        if (std::regex_search(start, found, serial)) require_serial(plan, found[1], path);
+    }
+}
+
+void add(std::vector<std::string>& to, const std::string& path, const std::vector<std::string>& lines) {
+    for (const std::string& line : lines)
+        to.push_back(line.starts_with(path) ? file_name(path) + line.substr(path.size())
+                                            : fmt::format("{}: {}", file_name(path), line));
+}
+
+config::Config log_config(const Plan& plan, const config::Config& said, const logs::Settings& settings,
+                          const std::string& path, bool scale_is_used) {
+    check_serial(plan, settings, path);
+    config::Config over = said;
+    const bool says_scale = std::ranges::any_of(
+        settings, [](const auto& pair) { return pair.first == "scale_arcsec" || pair.first == "gyro.scale_arcsec"; });
+    if (plan.unit.scale_arcsec && !says_scale && !config::is_given(over, "gyro.scale_arcsec"))
+        config::apply_pair(over, "gyro.scale_arcsec", fmt::format("{}", *plan.unit.scale_arcsec), plan.path);
+    return recorded::config_of_log(over, settings, path, scale_is_used);
+}
+
+void read_angles(const Plan& plan, const config::Config& said, const std::string& path, RunRecord& record) {
+    logs::AngleReader reader{path};
+    add(record.notes, path, reader.header().warnings);
+    const config::Config config = log_config(plan, said, reader.header().settings, path, false);
+    study::TickRates ticks{file_name(path), path, config.gyro.tick_s};
+    logs::TimedAngle angle;
+    double first_s = 0.0;
+    for (bool is_first = true; reader.next(angle); is_first = false) {
+        if (is_first) first_s = angle.t_s;
+        ticks.take(angle.row);
+    }
+    if (ticks.empty()) throw logs::FormatError{fmt::format("{}: holds no tick", path)};
+    study::check_tick(path, config.gyro.tick_s, first_s, angle);
+    if (!reader.header().complete) add(record.stops, path, {"was not closed by its writer"});
+    ticks.finish(record.axes);
+    record.configs.push_back(config);
+}
+
+void read_raw(const Plan& plan, const config::Config& said, const std::string& path, RunRecord& record) {
+    logs::RawReader raw = open_raw(*record.run, path, record.notes);
+    add(record.notes, path, raw.header().warnings);
+    const config::Config config = log_config(plan, said, raw.header().settings, path, true);
+    const recorded::LogCompensation asked = recorded::log_compensation(config, raw.header(), path);
+    for (const auto* lines : {&asked.notes, &asked.warnings}) add(record.notes, path, *lines);
+    if (!asked.presumed.empty()) add(record.notes, path, {asked.presumed});
+    study::TickRates ticks{file_name(path), path, config.gyro.tick_s};
+    rig::Replay replay{asked.compensation};
+    SwitchReader switches{asked.config};
+    const auto on_row = [&](const core::AngleRow& row) {
+        ticks.take(row);
+        switches.take(row);
+    };
+    const auto on_gap = [&](const core::GapReport& gap) { switches.take(gap); };
+    const bool warms = record.run->kind == RunKind::temperature && raw.header().has_temperature;
+    core::HalfRecord half;
+    while (raw.next(half)) {
+        switches.take(half);
+        if (warms && half.half % 2 != 0) record.temperature_c.push_back(half.temperature_c);
+        replay.take(half, raw.light(), on_row, on_gap);
+    }
+    replay.end(on_row, on_gap);
+    recorded::require_a_tick(replay, path);
+    add(record.stops, path, replay.contradictions(path));
+    if (!raw.header().complete) add(record.stops, path, {"was not closed by its writer"});
+    ticks.finish(record.axes);
+    record.switches.push_back(switches.finish());
+    record.raw_logs.push_back(path);
+    record.configs.push_back(asked.config);
+}
+
+// Of the rows, spread evenly over the samples where rows are missing.
+void take_temperature(const logs::ForeignLook& look, std::size_t n_samples, RunRecord& record) {
+    if (record.run->temperature.empty()) return;
+    const logs::ForeignColumn& column = logs::column_named(look.table, record.run->temperature);
+    const std::vector<double> rows = look.table.read({column.number}, 0).columns.front().values;
+    for (std::size_t k = 0; k < n_samples; ++k) record.temperature_c.push_back(rows[k * rows.size() / n_samples]);
+}
+
+void read_axes(const Plan& plan, const logs::ForeignLook& look, RunRecord& record) {
+    const std::string& path = look.table.path;
+    check_serial(plan, look.table.head, path);
+    for (const auto* lines : {&look.table.notes, &look.said}) add(record.notes, path, *lines);
+    logs::ImportedAxes imported = logs::imported_axes(look);
+    add(record.notes, path, imported.notes);
+    if (imported.axes.size() != 1)
+        throw config::ConfigError(
+            fmt::format("{}: {} axes; a unit has one: axis = COLUMN", record.run->place, imported.axes.size()));
+    logs::ImportedAxis& from = imported.axes.front();
+    study::AxisRecord axis;
+    axis.name = fmt::format("{}, {}", file_name(path), from.name);
+    axis.group = path;
+    axis.holds = from.holds;
+    axis.rate_hz = from.rate_hz;
+    axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
+    axis.phase_arcsec = std::move(from.phase_arcsec);
+    axis.mode = std::move(from.mode);
+    add(record.stops, path, from.warnings);
+    take_temperature(look, axis.rates_arcsec_s.size(), record);
+    record.axes.push_back(std::move(axis));
+    record.table_rates_arcsec_s = std::move(imported.table_rates_arcsec_s);
+}
+
+void look_for_twins(const RunRecord& record) {
+    for (std::size_t k = 1; k < record.logs.size(); ++k)
+        for (std::size_t j = 0; j < k; ++j)
+            if (record.logs[j].checksum == record.logs[k].checksum)
+                throw logs::FormatError(fmt::format("{}: is {} once more; two logs of one run cannot be of one time",
+                                                    record.logs[k].path, record.logs[j].path));
+}
+
+}  // namespace
+
+logs::RawReader open_raw(const Run& run, const std::string& path, std::vector<std::string>& notes) {
+    if (!is_mapped(run) && logs::recognise(path) != LogKind::unknown) return logs::RawReader{path};
+    logs::ImportedRaw made = logs::imported_raw(logs::look_at_foreign(path, run.mapping));
+    for (const auto* lines : {&made.notes, &made.warnings}) add(notes, path, *lines);
+    return {path, std::move(made.header), std::move(made.rows)};
+}
+
+RunRecord read_run(const Plan& plan, const Run& run, const config::Config& said) {
+    RunRecord record{.run = &run};
+    if (!run.serial.empty()) require_serial(plan, run.serial, run.place);
+    std::vector<std::string> foreign;
+    for (const std::string& file : run.files) {
+        const std::string path = path_of(plan, file);
+        const LogKind kind = is_mapped(run) ? LogKind::unknown : logs::recognise(path);
+        record.logs.push_back({.file = file, .path = path, .checksum = logs::hash_of_file(path), .run = run.number});
+        if (is_angles(kind))
+            read_angles(plan, said, path, record);
+        else if (is_raw(kind))
+            read_raw(plan, said, path, record);
+        else
+            foreign.push_back(path);
+    }
+    look_for_twins(record);
+    if (foreign.empty()) return record;
+    if (foreign.size() != run.files.size())
+        throw config::ConfigError(
+            fmt::format("{}: files of other programs and logs of zlg together; allowed is one kind "
+                        "a run",
+                        run.place));
+    const logs::ForeignLook look = logs::look_at_foreign(foreign, run.mapping);
+    if (look.makes == logs::Makes::axes) {
+        read_axes(plan, look, record);
+    } else {
+        for (const std::string& path : foreign) read_raw(plan, said, path, record);
+    }
+    return record;
+}
+
+}  // namespace zlg::acceptance

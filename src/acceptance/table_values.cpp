@@ -1,0 +1,214 @@
+// Rate tables.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <zlg/calibration/rate_table.hpp>
+#include <zlg/deviations/series.hpp>
+#include <zlg/report/number_text.hpp>
+
+#include "moved_values.hpp"
+
+namespace zlg::acceptance {
+namespace {
+
+using calibration::RateTable;
+using calibration::TableStage;
+
+constexpr const char* scale = "scale_factor.ppm";
+constexpr const char* nonlinearity = "scale_nonlinearity.ppm";
+constexpr const char* asymmetry = "scale_asymmetry.ppm";
+constexpr const char* repeatability = "scale_repeatability.ppm";
+constexpr const char* threshold = "threshold.deg_h";
+
+struct Turned {
+    const RunRecord* record = nullptr;
+    RateTable table;
+    double nominal = 1.0;  // nominal worth of a count over the one by which the rates were made
+    double hours = 0.0;
+
+    [[nodiscard]] double degrees() const { return std::max(1.0, static_cast<double>(table.stages.size()) - 2.0); }
+};
+
+std::vector<double> planned_rates(const Run& run, std::size_t n, double rate_hz) {
+    std::vector<double> rates(n, std::numeric_limits<double>::quiet_NaN());
+    for (const Stage& stage : run.stages) {
+        const auto at = [&](double time_s) {
+            return std::min(n, static_cast<std::size_t>(std::ceil(time_s * rate_hz)));
+        };
+        for (std::size_t k = at(stage.from_s); k < at(stage.to_s); ++k) rates[k] = stage.rate_arcsec_s;
+    }
+    return rates;
+}
+
+// Why the stages tell nothing of this gyro; empty where they do.
+std::string no_table(const RateTable& table) {
+    double largest = 0.0;
+    for (const TableStage& stage : table.stages) largest = std::max(largest, std::abs(stage.output));
+    const double k = table.scale_factor.value;
+    if (std::abs(k) < 0.1)
+        return fmt::format(
+            "the table was to turn, and the gyro shows {:.3g} deg/h at the most: the table stood, or this is another "
+            "sensor",
+            largest);
+    if (k < 0.0) return "the gyro turns against the table: its polarity, or the sign of the plan, is the wrong one";
+    if (std::abs(k - 1.0) > 0.1)
+        return fmt::format("the scale factor is {:.4g} of the nominal one: the unit, or the sensor, is the wrong one",
+                           k);
+    if (table.largest_residual_ppm > 1e5)
+        return "the gyro does not follow the table: the stages are not those of the plan, or this is another sensor";
+    return {};
+}
+
+// The estimates are widened for their few degrees of freedom; Student's law takes these as they are.
+double as_found(const numeric::Estimate& e, double degrees) {
+    return degrees >= 3.0 ? e.sigma * std::sqrt((degrees - 2.0) / degrees) : e.sigma;
+}
+
+Value of_mean(const char* name, const std::vector<Value>& each) {
+    Value v = each.front();
+    const auto n = static_cast<double>(each.size());
+    double variance = 0.0, mean = 0.0, hours = 0.0;
+    for (const Value& one : each) {
+        mean += one.value / n;
+        variance += one.uncertainty * one.uncertainty / (n * n);
+        hours += one.hours;
+    }
+    v.name = name;
+    v.value = mean;
+    v.uncertainty = std::sqrt(variance);
+    v.degrees *= n;
+    v.hours = hours;
+    return v;
+}
+
+Value deviation(const char* name, double value, double degrees, double hours) {
+    return {.name = name,
+            .determined = true,
+            .value = value,
+            .uncertainty = value / std::sqrt(2.0 * degrees),
+            .degrees = degrees,
+            .law = Law::chi,
+            .hours = hours};
+}
+
+// The smallest rate at which the gyro shows at least half of it, where it does at all larger ones. The zero of the line
+// is subtracted; a stage whose noise leaves that open does not count.
+Value threshold_of(const Turned& of) {
+    std::vector<TableStage> stages = of.table.stages;
+    std::ranges::sort(stages, std::greater{}, [](const TableStage& s) { return std::abs(s.input_arcsec_s); });
+    const double k = of.table.scale_factor.value, zero = of.table.bias_arcsec_s.value;
+    double least = 0.0;
+    for (const TableStage& s : stages) {
+        const double input = s.input_arcsec_s, shown = s.output / k - zero;
+        if (input == 0.0 || std::abs(input) < 2.0 * s.output_sigma) break;
+        if (shown / input < 0.5) break;
+        least = std::abs(input);
+    }
+    if (least == 0.0)
+        return not_determined(threshold, "needs stages of small rates, each long enough to be told from 0");
+    return {.name = threshold,
+            .determined = true,
+            .value = least,
+            .uncertainty = 0.0,
+            .law = Law::without_error,
+            .hours = of.hours,
+            .reason = "smallest rate of a stage at which the gyro showed half of it or more: an upper bound"};
+}
+
+report::Figure residual_figure(const Turned& of, std::size_t index) {
+    report::Figure f = report::blank_figure(fmt::format("residuals-{}", index + 1),
+                                            fmt::format("Residuals of run {}", of.record->run->number),
+                                            "Output less the straight line, at each stage.", "rate of the table, deg/s",
+                                            "residual, ppm of the largest output");
+    report::Series points = report::blank_series("stages", report::Mark::points);
+    for (const TableStage& s : of.table.stages) report::add_point(points, s.input_arcsec_s / 3600.0, s.residual_ppm);
+    f.series = {std::move(points)};
+    return f;
+}
+
+std::vector<Turned> tables_of(const Plan& plan, const std::vector<RunRecord*>& records,
+                              const config::Analysis& config) {
+    std::vector<Turned> tables;
+    for (RunRecord* record : records) {
+        for (const study::AxisRecord& axis : record->axes) {
+            const std::size_t n = axis.rates_arcsec_s.size();
+            const bool by_plan = !record->run->stages.empty();
+            if (!by_plan && record->table_rates_arcsec_s.size() != n)
+                throw config::ConfigError(
+                    fmt::format("{}: stages is missing: at which rates did the table turn? (or table_rate = COLUMN)",
+                                record->run->place));
+            Turned found{.record = record, .table = {}, .hours = static_cast<double>(n) / axis.rate_hz / 3600.0};
+            if (plan.unit.scale_arcsec && !record->configs.empty())
+                found.nominal = *plan.unit.scale_arcsec / record->configs.front().gyro.scale_arcsec;
+            const calibration::RateTableOptions options{
+                .settling_samples = static_cast<std::int64_t>(
+                    std::min(std::ceil(config.table_settling_s * axis.rate_hz), static_cast<double>(n))),
+                .earth_arcsec_s =
+                    config.table_earth_arcsec_s + earth_about(plan.unit, record->run->axis).value_or(0.0)};
+            try {
+                found.table = calibration::rate_table(
+                    by_plan ? planned_rates(*record->run, n, axis.rate_hz) : record->table_rates_arcsec_s,
+                    axis.rates_arcsec_s, options);
+            } catch (const deviations::SeriesError& error) {
+                record->stops.emplace_back(error.what());
+                continue;
+            }
+            if (const std::string why = no_table(found.table); !why.empty()) record->stops.push_back(why);
+            tables.push_back(std::move(found));
+        }
+    }
+    return tables;
+}
+
+}  // namespace
+
+Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, const config::Analysis& config) {
+    const std::vector<Turned> tables = tables_of(plan, records, config);
+    Found found;
+    if (tables.empty()) return found;
+    std::vector<Value> scales, asymmetries;
+    double squares = 0.0, degrees = 0.0, hours = 0.0;
+    std::string symmetric;
+    for (const Turned& t : tables) {
+        const numeric::Estimate &k = t.table.scale_factor, &a = t.table.asymmetry_ppm;
+        scales.push_back({.name = scale,
+                          .determined = true,
+                          .value = 1e6 * (k.value * t.nominal - 1.0),
+                          .uncertainty = 1e6 * t.nominal * as_found(k, t.degrees()),
+                          .degrees = t.degrees(),
+                          .hours = t.hours});
+        if (a.determined)
+            asymmetries.push_back({.name = asymmetry,
+                                   .determined = true,
+                                   .value = a.value,
+                                   .uncertainty = a.sigma,
+                                   .degrees = t.degrees(),
+                                   .hours = t.hours});
+        else
+            symmetric = a.reason;
+        squares += t.table.nonlinearity_ppm * t.table.nonlinearity_ppm * static_cast<double>(t.table.stages.size());
+        degrees += t.degrees();
+        hours += t.hours;
+        found.figures.push_back(residual_figure(t, found.figures.size()));
+    }
+    found.values.push_back(of_mean(scale, scales));
+    found.values.push_back(deviation(nonlinearity, std::sqrt(squares / degrees), degrees, hours));
+    found.values.push_back(asymmetries.empty() ? not_determined(asymmetry, symmetric)
+                                               : of_mean(asymmetry, asymmetries));
+    if (scales.size() < 2) {
+        found.values.push_back(not_determined(repeatability, "needs two rate tables or more"));
+    } else {
+        double spread = 0.0;
+        for (const Value& one : scales) spread += std::pow(one.value - found.values.front().value, 2);
+        const auto free = static_cast<double>(scales.size()) - 1.0;
+        found.values.push_back(deviation(repeatability, std::sqrt(spread / free), free, hours));
+    }
+    found.values.push_back(threshold_of(tables.front()));
+    return found;
+}
+
+}  // namespace zlg::acceptance

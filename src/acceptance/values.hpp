@@ -1,0 +1,39 @@
+#pragma once
+// From what the logs hold to values with their errors: by the functions of `analyze` and `calibrate`.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <zlg/acceptance/quantity.hpp>
+#include <zlg/study/analyze.hpp>
+#include <zlg/study/calibrate.hpp>
+
+#include "run_record.hpp"
+
+namespace zlg::acceptance {
+
+// A record at rest, analysed.
+struct StillAxis {
+    const Run* run = nullptr;
+    study::AxisResult result;
+};
+
+// Bias, its repeatability, and the terms of the noise of the longest record.
+//
+// stops  gets a line where the Earth turns the wrong way.
+[[nodiscard]] std::vector<Value> still_values(const Plan& plan, const std::vector<StillAxis>& axes);
+
+// Mean rate at rest, or non-magnetic drift, with what the noise lets it differ by.
+[[nodiscard]] Value bias_of(const Plan& plan, const StillAxis& of);
+
+// Where the mean rate is that of the Earth with the other sign: why the run tells nothing; else empty.
+[[nodiscard]] std::string wrong_way(const Plan& plan, const StillAxis& axis);
+
+[[nodiscard]] std::vector<Value> constant_values(const study::CalibrationResult& found);
+
+// Of switches and alarms.
+[[nodiscard]] std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs,
+                                               const std::vector<StillAxis>& axes);
+
+}  // namespace zlg::acceptance

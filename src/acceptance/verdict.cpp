@@ -1,0 +1,109 @@
+#include <zlg/acceptance/verdict.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+
+namespace zlg::acceptance {
+namespace {
+
+double student_above(double distance, double degrees) {
+    if (!std::isfinite(degrees) || degrees > 1e6) return 0.5 * std::erfc(distance / std::sqrt(2.0));
+    const boost::math::students_t law(std::max(degrees, 1.0));
+    return boost::math::cdf(boost::math::complement(law, distance));
+}
+
+// degrees s^2/truth^2 follows chi-square: the truth is above x where that is below degrees s^2/x^2.
+double chi_above(const Value& v, double x) {
+    if (!(x > 0.0)) return 1.0;
+    return boost::math::gamma_p(0.5 * v.degrees, 0.5 * v.degrees * v.value * v.value / (x * x));
+}
+
+double poisson_above(const Value& v, double x) {
+    if (!(x > 0.0)) return x < 0.0 || v.value > 0.0 ? 1.0 : 0.0;
+    return boost::math::gamma_q(std::round(v.value * v.hours) + 1.0, x * v.hours);
+}
+
+double beyond(const Value& v, const Limit& limit) {
+    return std::min(1.0, (limit.max ? probability_above(v, *limit.max) : 0.0) +
+                             (limit.min ? 1.0 - probability_above(v, *limit.min) : 0.0));
+}
+
+std::optional<Verdict> verdict_of(const Value& v, const Limit& limit, double risk) {
+    const double p = beyond(v, limit);
+    if (p <= risk) return Verdict::pass;
+    return 1.0 - p <= risk ? Verdict::fail : Verdict::undecided;
+}
+
+// What the same value would be known to after another time.
+Value after(const Value& v, double hours) {
+    Value later = v;
+    const double longer = hours / v.hours;
+    later.hours = hours;
+    later.degrees = v.degrees * longer;
+    later.uncertainty = v.uncertainty_after ? v.uncertainty * v.uncertainty_after(hours) / v.uncertainty_after(v.hours)
+                                            : v.uncertainty / std::sqrt(longer);
+    return later;
+}
+
+// The least time by halving, to 1 %: a longer record knows better, or never decides.
+std::optional<double> hours_that_decide(const Value& v, const Limit& limit, double risk) {
+    constexpr double longest = 1000.0;
+    const auto decides = [&](double longer) {
+        return verdict_of(after(v, longer * v.hours), limit, risk) != Verdict::undecided;
+    };
+    if (!(v.hours > 0.0) || v.law == Law::without_error || !decides(longest)) return std::nullopt;
+    double low = 1.0, high = longest;
+    while (high > 1.01 * low) (decides(std::sqrt(low * high)) ? high : low) = std::sqrt(low * high);
+    return (high - 1.0) * v.hours;
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::pass:
+            return "pass";
+        case Verdict::fail:
+            return "fail";
+        case Verdict::undecided:
+            return "undecided";
+        case Verdict::not_determined:
+            break;
+    }
+    return "not determined";
+}
+
+double probability_above(const Value& v, double x) {
+    switch (v.law) {
+        case Law::chi:
+            return chi_above(v, x);
+        case Law::poisson:
+            return poisson_above(v, x);
+        case Law::without_error:
+            return v.value > x ? 1.0 : 0.0;
+        case Law::student:
+            break;
+    }
+    return v.uncertainty > 0.0 ? student_above((x - v.value) / v.uncertainty, v.degrees) : (v.value > x ? 1.0 : 0.0);
+}
+
+Judged judge(const Value& value, const std::optional<Limit>& limit, double risk) {
+    Judged judged{.value = value, .limit = limit, .verdict = {}, .more_hours = {}};
+    if (!value.determined) judged.verdict = Verdict::not_determined;
+    if (!value.determined || !limit) return judged;
+    judged.verdict = verdict_of(value, *limit, risk);
+    if (judged.verdict == Verdict::pass) judged.risk = beyond(value, *limit);
+    if (judged.verdict == Verdict::undecided) judged.more_hours = hours_that_decide(value, *limit, risk);
+    return judged;
+}
+
+double unit_risk(const std::vector<Judged>& all) {
+    double none = 1.0;
+    for (const Judged& one : all) none *= 1.0 - one.risk;
+    return 1.0 - none;
+}
+
+}  // namespace zlg::acceptance

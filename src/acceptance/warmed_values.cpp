@@ -1,0 +1,264 @@
+// Temperature, warming, and magnetic fields.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+
+#include <zlg/noise/mode_split.hpp>
+#include <zlg/numeric/cluster_fit.hpp>
+#include <zlg/numeric/minimum.hpp>
+#include <zlg/report/number_text.hpp>
+
+#include "moved_values.hpp"
+
+namespace zlg::acceptance {
+namespace {
+
+constexpr const char* slope = "bias_temperature.deg_h_c";
+constexpr const char* hysteresis = "bias_hysteresis.deg_h";
+constexpr const char* settling = "warm_up.s";
+constexpr const char* sensitivity = "magnetic_sensitivity.deg_h_mt";
+
+// Rate and temperature, as means over a stretch of the run.
+struct Point {
+    double time_s = 0.0, rate = 0.0, temperature_c = 0.0;
+};
+
+// Of a switched gyro its non-magnetic part, segment by segment; else means over 128 equal stretches.
+std::vector<Point> course_of(const RunRecord& record) {
+    constexpr std::size_t n_stretches = 128;
+    const study::AxisRecord& axis = record.axes.front();
+    const std::size_t n = axis.rates_arcsec_s.size();
+    std::vector<Point> course;
+    if (!axis.mode.empty()) {
+        const noise::ModeSplit split = noise::split_modes(
+            {.rate_hz = axis.rate_hz, .rates_arcsec_s = axis.rates_arcsec_s, .bridged_arcsec_s = {}, .mode = axis.mode},
+            20);
+        for (const noise::ModePoint& p : split.points) course.push_back({p.time_s, p.nonmagnetic_arcsec_s, 0.0});
+    }
+    for (std::size_t k = 0; course.size() < n_stretches && k < n_stretches && (k > 0 || course.empty()); ++k) {
+        const std::size_t from = k * n / n_stretches, to = (k + 1) * n / n_stretches;
+        double known = 0.0, sum = 0.0;
+        for (std::size_t j = from; j < to; ++j)
+            if (std::isfinite(axis.rates_arcsec_s[j])) known += 1.0, sum += axis.rates_arcsec_s[j];
+        if (known > 0.0) course.push_back({0.5 * static_cast<double>(from + to) / axis.rate_hz, sum / known, 0.0});
+    }
+    return course;
+}
+
+// The mean of the temperatures around each point.
+std::vector<Point> with_temperature(std::vector<Point> course, const RunRecord& record) {
+    const double rate_hz = record.axes.front().rate_hz;
+    const double half_s = course.size() > 1 ? 0.5 * (course[1].time_s - course[0].time_s) : 1.0;
+    for (Point& p : course) {
+        double known = 0.0, sum = 0.0;
+        const auto from = static_cast<std::size_t>(std::max(0.0, (p.time_s - half_s) * rate_hz));
+        const auto to = std::min(record.temperature_c.size(), static_cast<std::size_t>((p.time_s + half_s) * rate_hz));
+        for (std::size_t k = from; k < to; ++k)
+            if (std::isfinite(record.temperature_c[k])) known += 1.0, sum += record.temperature_c[k];
+        p.temperature_c = known > 0.0 ? sum / known : std::numeric_limits<double>::quiet_NaN();
+    }
+    std::erase_if(course, [](const Point& p) { return !std::isfinite(p.temperature_c); });
+    return course;
+}
+
+report::Figure course_figure(const RunRecord& record, const std::vector<Point>& course, const char* title,
+                             bool over_temperature) {
+    report::Figure f = report::blank_figure(
+        fmt::format("course-of-run-{}", record.run->number), fmt::format("{}, run {}", title, record.run->number),
+        "Means over stretches of the run; of a switched gyro its non-magnetic part.",
+        over_temperature ? "temperature, C" : "time, s", "rate, deg/h");
+    report::Series points = report::blank_series("means", report::Mark::points);
+    for (const Point& p : course) report::add_point(points, over_temperature ? p.temperature_c : p.time_s, p.rate);
+    f.series = {std::move(points)};
+    return f;
+}
+
+// +1 where it warms, -1 where it cools, 0 where it changes little.
+std::vector<double> ways_of(const std::vector<Point>& course) {
+    std::vector<double> change(course.size(), 0.0);
+    double most = 0.0;
+    for (std::size_t k = 1; k + 1 < course.size(); ++k) {
+        change[k] = course[k + 1].temperature_c - course[k - 1].temperature_c;
+        most = std::max(most, std::abs(change[k]));
+    }
+    for (double& c : change) c = std::abs(c) < 0.1 * most ? 0.0 : std::copysign(1.0, c);
+    return change;
+}
+
+// Least squares over eight clusters of neighbours: within one the noise may be correlated.
+numeric::ClusterFit fit_of(const std::vector<Point>& course, const Eigen::MatrixXd& laws, std::size_t n_clusters) {
+    const auto p = laws.cols();
+    std::vector<numeric::Cluster> clusters(n_clusters, {Eigen::MatrixXd::Zero(p, p), Eigen::VectorXd::Zero(p)});
+    for (std::size_t k = 0; k < course.size(); ++k) {
+        const Eigen::VectorXd x = laws.row(static_cast<Eigen::Index>(k)).transpose();
+        numeric::Cluster& cluster = clusters[k * n_clusters / course.size()];
+        cluster.information += x * x.transpose();
+        cluster.products += x * course[k].rate;
+    }
+    return numeric::fit_clusters(clusters);
+}
+
+// A (1 - ...) of the warming: rate = b + a exp(-t/tau), by least squares for each tau.
+struct Warming {
+    double a = 0.0, b = 0.0, tau_s = 1.0, residual = 0.0;
+};
+
+Warming warming_of(const std::vector<Point>& course, double tau_s) {
+    Eigen::MatrixX2d laws(std::ssize(course), 2);
+    Eigen::VectorXd y(std::ssize(course));
+    for (Eigen::Index k = 0; k < y.size(); ++k) {
+        const Point& p = course[static_cast<std::size_t>(k)];
+        laws.row(k) << std::exp(-p.time_s / tau_s), 1.0;
+        y[k] = p.rate;
+    }
+    const Eigen::Vector2d c = laws.colPivHouseholderQr().solve(y);
+    return {c[0], c[1], tau_s, (y - laws * c).squaredNorm()};
+}
+
+// The covariance of a, b and tau at the solution, and from it the error of t = tau ln(|a|/band).
+double settling_sigma(const std::vector<Point>& course, const Warming& w, double band) {
+    Eigen::MatrixX3d j(std::ssize(course), 3);
+    for (Eigen::Index k = 0; k < j.rows(); ++k) {
+        const double t = course[static_cast<std::size_t>(k)].time_s, e = std::exp(-t / w.tau_s);
+        j.row(k) << e, 1.0, w.a * e * t / (w.tau_s * w.tau_s);
+    }
+    const double variance = w.residual / static_cast<double>(j.rows() - 3);
+    const Eigen::Matrix3d covariance = (j.transpose() * j).inverse() * variance;
+    const Eigen::Vector3d gradient{w.tau_s / w.a, 0.0, std::log(std::max(1.0, std::abs(w.a) / band))};
+    return std::sqrt(gradient.dot(covariance * gradient));
+}
+
+}  // namespace
+
+Found temperature_values(const std::vector<RunRecord*>& records) {
+    Found found;
+    const RunRecord& record = *records.front();
+    const auto refuse = [&](const std::string& why) {
+        found.values = {not_determined(slope, why), not_determined(hysteresis, why)};
+        return found;
+    };
+    if (record.temperature_c.empty()) return refuse("needs a log with temperature_c");
+    const std::vector<Point> course = with_temperature(course_of(record), record);
+    if (course.size() < 32)
+        return refuse(fmt::format("needs 32 means with a temperature; there are {}", course.size()));
+    const auto [least, most] = std::ranges::minmax(course, {}, &Point::temperature_c);
+    if (most.temperature_c - least.temperature_c < 1.0) return refuse("needs a range of temperatures of 1 C or more");
+    found.figures.push_back(course_figure(record, course, "Rate against temperature", true));
+    const std::vector<double> ways = ways_of(course);
+    const auto n_up = std::ranges::count(ways, 1.0), n_down = std::ranges::count(ways, -1.0);
+    const bool both = std::min(n_up, n_down) * 8 >= std::ssize(course);
+    Eigen::MatrixXd laws(std::ssize(course), both ? 3 : 2);
+    const double middle = 0.5 * (least.temperature_c + most.temperature_c);
+    for (Eigen::Index k = 0; k < laws.rows(); ++k) {
+        laws(k, 0) = 1.0;
+        laws(k, 1) = course[static_cast<std::size_t>(k)].temperature_c - middle;
+        if (both) laws(k, 2) = ways[static_cast<std::size_t>(k)];
+    }
+    constexpr std::size_t n_clusters = 12;
+    const numeric::ClusterFit fit = fit_of(course, laws, n_clusters);
+    const double degrees = static_cast<double>(n_clusters) - static_cast<double>(laws.cols());
+    const double hours = (course.back().time_s - course.front().time_s) / 3600.0;
+    found.values.push_back({.name = slope,
+                            .determined = true,
+                            .value = fit.coefficient[1],
+                            .uncertainty = std::sqrt(fit.covariance(1, 1)),
+                            .degrees = degrees,
+                            .hours = hours});
+    if (both)
+        found.values.push_back({.name = hysteresis,
+                                .determined = true,
+                                .value = 2.0 * std::abs(fit.coefficient[2]),
+                                .uncertainty = 2.0 * std::sqrt(fit.covariance(2, 2)),
+                                .degrees = degrees,
+                                .hours = hours});
+    else
+        found.values.push_back(not_determined(hysteresis, "needs warming and cooling in one run"));
+    return found;
+}
+
+Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
+    Found found;
+    const RunRecord& record = *records.front();
+    const auto refuse = [&](const char* why) {
+        found.values = {not_determined(settling, why)};
+        return found;
+    };
+    if (plan.warm_up_band_deg_h == 0.0)
+        return refuse("needs [accept] warm_up_band_deg_h: within which the bias has settled");
+    const std::vector<Point> course = course_of(record);
+    if (course.size() < 8) return refuse("needs eight means over the run");
+    found.figures.push_back(course_figure(record, course, "Warming", false));
+    const double length_s = course.back().time_s;
+    const auto left = [&](double log_tau) { return warming_of(course, std::exp(log_tau)).residual; };
+    const Warming w = warming_of(
+        course, std::exp(numeric::scanned_minimum(left, std::log(length_s / 100.0), std::log(3.0 * length_s), 60).at));
+    const double band = plan.warm_up_band_deg_h;
+    Value v{.name = settling,
+            .determined = true,
+            .value = w.tau_s * std::log(std::max(1.0, std::abs(w.a) / band)),
+            .uncertainty = settling_sigma(course, w, band),
+            .degrees = static_cast<double>(course.size()) - 3.0,
+            .hours = length_s / 3600.0};
+    if (!std::isfinite(v.uncertainty)) return refuse("the bias does not change by more than its noise");
+    if (v.value + v.uncertainty > length_s) return refuse("needs a longer run: the bias has not settled within it");
+    v.reason = fmt::format("bias b + a exp(-t/tau), a = {} deg/h, tau = {} s", report::short_number(w.a),
+                           report::short_number(w.tau_s));
+    found.values.push_back(std::move(v));
+    return found;
+}
+
+Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) {
+    Found found;
+    std::vector<std::array<double, 3>> runs;  // field, bias, weight
+    double weights = 0.0, field = 0.0, rate = 0.0, hours = 0.0;
+    report::Series points = report::blank_series("runs", report::Mark::points);
+    for (const StillAxis& axis : in_field) {
+        const Value bias = bias_of(plan, axis);
+        if (!bias.determined) continue;
+        const double weight = 1.0 / (bias.uncertainty * bias.uncertainty);
+        runs.push_back({axis.run->field_mt, bias.value, weight});
+        weights += weight;
+        field += weight * axis.run->field_mt;
+        rate += weight * bias.value;
+        hours += bias.hours;
+        report::add_point(points, axis.run->field_mt, bias.value);
+        points.y_error.push_back(2.0 * bias.uncertainty);
+    }
+    double xx = 0.0, xy = 0.0, squares = 0.0;
+    for (const auto& [x, y, weight] : runs) {
+        xx += weight * (x - field / weights) * (x - field / weights);
+        xy += weight * (x - field / weights) * (y - rate / weights);
+    }
+    if (!(xx > 0.0) || !std::isfinite(xx)) return found;
+    for (const auto& [x, y, weight] : runs)
+        squares += std::pow(y - rate / weights - xy / xx * (x - field / weights), 2);
+    report::Figure f =
+        report::blank_figure("field", "Bias in a magnetic field",
+                             "Bias of each run, with twice its standard uncertainty.", "field, mT", "bias, deg/h");
+    f.series = {std::move(points)};
+    found.figures = {std::move(f)};
+    found.values.push_back({.name = sensitivity,
+                            .determined = true,
+                            .value = xy / xx,
+                            .uncertainty = 1.0 / std::sqrt(xx),
+                            .hours = hours});
+    if (const double degrees = static_cast<double>(runs.size()) - 2.0; degrees > 0.0) {
+        const double left = std::sqrt(squares / degrees);
+        found.values.push_back({.name = "magnetic_residual.deg_h",
+                                .determined = true,
+                                .value = left,
+                                .uncertainty = left / std::sqrt(2.0 * degrees),
+                                .degrees = degrees,
+                                .law = Law::chi,
+                                .hours = hours});
+    }
+    return found;
+}
+
+}  // namespace zlg::acceptance

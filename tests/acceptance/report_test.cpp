@@ -1,0 +1,50 @@
+#include <zlg/acceptance/report.hpp>
+#include <zlg/logs/error.hpp>
+
+#include "records.hpp"
+
+namespace zlg::report_test {
+
+using namespace acceptance_test;
+
+std::string page() {
+    write("rest.csv", {white(2000, 1.0)});
+    const auto test = accepted(run("static", "rest.csv"), "'bias.deg_h' = { max = 1 }\n");
+    return acceptance::report_html(acceptance::acceptance_page(test, "zlg accept plan.toml"));
+}
+
+void put(const std::string& name, const std::string& text) { std::ofstream{folder() + name} << text; }
+
+TEST(Report, holds_its_record_and_a_seal_that_every_byte_breaks) {
+    const std::string whole = page();
+    put("report.html", whole);
+    const std::string record = acceptance::read_report(folder() + "report.html");
+    test::expect_contains(record, "\"passed\": true");
+    EXPECT_EQ(whole, page()) << "the same inputs give the same bytes";
+    for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 300) {
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ 1);
+        put("report.html", damaged);
+        EXPECT_NE(test::message_of<logs::FormatError>([] { (void)acceptance::read_report(folder() + "report.html"); }),
+                  "")
+            << at;
+    }
+}
+
+TEST(Report, a_log_is_known_by_its_bytes) {
+    put("report.html", page());
+    EXPECT_TRUE(acceptance::verify(folder() + "report.html", {folder() + "rest.csv", folder() + "plan.toml"}).fits);
+    write("rest.csv", {white(2000, 1.0, 2)});
+    EXPECT_FALSE(acceptance::verify(folder() + "report.html", {folder() + "rest.csv"}).fits);
+}
+
+TEST(Report, a_text_of_the_plan_cannot_end_the_record) {
+    write("rest.csv", {white(2000, 1.0)});
+    const std::string runs = run("static", "rest.csv");
+    std::ofstream{folder() + "plan.toml"} << "[unit]\nserial = '</script><b>'\n" << runs;
+    const auto test = acceptance::accept({.plan = folder() + "plan.toml", .said = {}});
+    put("report.html", acceptance::report_html(acceptance::acceptance_page(test, "")));
+    test::expect_contains(acceptance::read_report(folder() + "report.html"), "\\u003c/script>");
+}
+
+}  // namespace zlg::report_test

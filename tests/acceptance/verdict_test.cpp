@@ -1,0 +1,94 @@
+#include <zlg/acceptance/verdict.hpp>
+
+#include "test.hpp"
+
+namespace zlg::verdict_test {
+
+using namespace acceptance;
+
+Value student(double value, double uncertainty, double degrees) {
+    return {.name = "bias.deg_h",
+            .determined = true,
+            .value = value,
+            .uncertainty = uncertainty,
+            .degrees = degrees,
+            .hours = 1.0};
+}
+
+Limit at_most(double max) { return {.name = "bias.deg_h", .min = {}, .max = max}; }
+
+// Quantiles of printed tables: t(0.95; 5) = 2.015, t(0.95; infinity) = 1.645.
+TEST(Verdict, the_guard_band_is_the_quantile_of_student_times_the_uncertainty) {
+    EXPECT_EQ(judge(student(1.0 - 2.02, 1.0, 5.0), at_most(1.0), 0.05).verdict, Verdict::pass);
+    EXPECT_EQ(judge(student(1.0 - 2.01, 1.0, 5.0), at_most(1.0), 0.05).verdict, Verdict::undecided);
+    EXPECT_EQ(judge(student(1.0 + 2.02, 1.0, 5.0), at_most(1.0), 0.05).verdict, Verdict::fail);
+    EXPECT_EQ(judge(student(1.0 - 1.65, 1.0, INFINITY), at_most(1.0), 0.05).verdict, Verdict::pass);
+    EXPECT_EQ(judge(student(1.0 - 1.64, 1.0, INFINITY), at_most(1.0), 0.05).verdict, Verdict::undecided);
+}
+
+TEST(Verdict, both_limits_share_one_risk) {
+    const Limit narrow{.name = "bias.deg_h", .min = -1.0, .max = 1.0};
+    // In the middle of limits at two standard uncertainties 4.6 % lie beyond; at 1.9 of them 5.7 %.
+    EXPECT_EQ(judge(student(0.0, 0.5, INFINITY), narrow, 0.05).verdict, Verdict::pass);
+    EXPECT_EQ(judge(student(0.0, 1.0 / 1.9, INFINITY), narrow, 0.05).verdict, Verdict::undecided);
+    EXPECT_NEAR(judge(student(0.0, 0.5, INFINITY), narrow, 0.05).risk, 0.0455, 1e-4);
+}
+
+// chi-square(0.05; 10) = 3.940: the upper bound of a standard deviation s of 10 degrees is s sqrt(10/3.940) = 1.593 s.
+TEST(Verdict, a_standard_deviation_has_the_bounds_of_chi_square) {
+    Value s = student(1.0, 0.22, 10.0);
+    s.law = Law::chi;
+    EXPECT_EQ(judge(s, at_most(1.594), 0.05).verdict, Verdict::pass);
+    EXPECT_EQ(judge(s, at_most(1.592), 0.05).verdict, Verdict::undecided);
+    // chi-square(0.95; 10) = 18.307: the lower bound is 0.739 s.
+    EXPECT_EQ(judge(s, at_most(0.738), 0.05).verdict, Verdict::fail);
+    EXPECT_EQ(judge(s, at_most(0.740), 0.05).verdict, Verdict::undecided);
+}
+
+// No event in T: the rate is below ln(20)/T = 2.996/T at 95 %.
+TEST(Verdict, no_event_is_no_proof_of_none) {
+    Value none{.name = "alarms.per_h",
+               .determined = true,
+               .value = 0.0,
+               .uncertainty = 1.0,
+               .law = Law::poisson,
+               .hours = 1.0};
+    EXPECT_EQ(judge(none, at_most(3.0), 0.05).verdict, Verdict::pass);
+    EXPECT_EQ(judge(none, at_most(2.99), 0.05).verdict, Verdict::undecided);
+}
+
+TEST(Verdict, what_is_counted_is_compared) {
+    Value gap{.name = "gap.ticks", .determined = true, .value = 3.0, .uncertainty = 0.0, .law = Law::without_error};
+    EXPECT_EQ(judge(gap, at_most(3.0), 0.05).verdict, Verdict::pass);
+    EXPECT_EQ(judge(gap, at_most(2.0), 0.05).verdict, Verdict::fail);
+}
+
+TEST(Verdict, four_times_the_time_halves_the_guard_band) {
+    // 0.8225 u from the limit: half of 1.645 u, which 4 h, 3 h more, would make a whole one.
+    const Judged open = judge(student(1.0 - 0.8225, 1.0, INFINITY), at_most(1.0), 0.05);
+    ASSERT_EQ(open.verdict, Verdict::undecided);
+    ASSERT_TRUE(open.more_hours);
+    EXPECT_NEAR(*open.more_hours, 3.0, 0.05);
+}
+
+TEST(Verdict, a_floor_of_the_noise_is_decided_by_no_time) {
+    Value v = student(0.5, 1.0, INFINITY);
+    v.uncertainty_after = [](double) { return 1.0; };
+    const Judged open = judge(v, at_most(1.0), 0.05);
+    EXPECT_EQ(open.verdict, Verdict::undecided);
+    EXPECT_FALSE(open.more_hours);
+}
+
+TEST(Verdict, without_a_limit_there_is_none_and_what_is_open_stays_open) {
+    EXPECT_FALSE(judge(student(0.0, 1.0, 5.0), std::nullopt, 0.05).verdict);
+    EXPECT_EQ(judge(not_determined("bias.deg_h", "no log"), at_most(1.0), 0.05).verdict, Verdict::not_determined);
+}
+
+TEST(Verdict, the_risk_of_a_unit_is_that_of_any_limit) {
+    Judged a, b;
+    a.risk = 0.01;
+    b.risk = 0.02;
+    EXPECT_NEAR(unit_risk({a, b}), 1.0 - 0.99 * 0.98, 1e-15);
+}
+
+}  // namespace zlg::verdict_test

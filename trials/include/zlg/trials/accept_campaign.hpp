@@ -1,0 +1,47 @@
+#pragma once
+// Whether the verdicts of an acceptance test keep the risk that they state: units whose truth is known.
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace zlg::trials {
+
+struct AcceptCampaignTask {
+    int n_units = 400;
+    std::uint64_t seed = 1;
+    std::string folder;  // for logs and plans, which are written over
+};
+
+// Of the units whose truth lies beyond a limit, and of those within, how many were told otherwise.
+struct VerdictScore {
+    int beyond = 0, passed = 0;  // of those
+    int within = 0, failed = 0;
+    int undecided = 0;
+    int predicted = 0, decided = 0;  // undecided ones that were measured on for the time predicted
+    int known = 0;
+    double squares = 0.0;  // of error over uncertainty
+
+    [[nodiscard]] double mean_square() const { return known > 0 ? squares / known : 0.0; }
+    // So many false verdicts have a chance above 0.001 where the risk is kept; and the errors are as they are stated.
+    [[nodiscard]] bool is_good(double risk) const;
+};
+
+struct AcceptCampaign {
+    double risk = 0.05;
+    std::map<std::string, VerdictScore> quantities;
+    int faulty = 0, stopped = 0;  // dead, held, clipped and doubled logs; those without a verdict
+    [[nodiscard]] bool is_good() const;
+};
+
+// One sample a second for an hour and more, white noise, every second unit with a rate random walk, every third with a
+// low pass. The bias and the angle random walk are well within, near or well beyond their limits. Every tenth log is no
+// measurement. Every tenth unit is a gyro of ours that switches, with a limit of its half-wave voltage and its magnetic
+// drift.
+//
+// errors  those of acceptance::accept.
+[[nodiscard]] AcceptCampaign run_accept_campaign(const AcceptCampaignTask& task);
+
+[[nodiscard]] std::string campaign_text(const AcceptCampaign& campaign);
+
+}  // namespace zlg::trials
