@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
@@ -49,21 +51,18 @@ LogRun::LogRun(std::string name, std::span<const std::string> settings) : name_{
     logs::refuse_foreign(name_);
     switch (logs::recognise_text(name_)) {
         case logs::LogKind::raw_csv:
-            open_raw(settings);
+            open_raw(logs::RawReader{name_}, settings);
             break;
         case logs::LogKind::angle_csv:
             open_angles(settings);
             break;
         default:
-            throw logs::FormatError{
-                name_ +
-                ": is no log; allowed is a CSV log, with the columns half, bias_sign, mode, counts, "
-                "loop_closed or tick, t_s, dtheta_arcsec, dtheta_final_arcsec, sigma_arcsec, mode, flags"};
+            open_foreign(settings);
     }
 }
 
-void LogRun::open_raw(std::span<const std::string> settings) {
-    const logs::RawHeader& log = raw_.emplace(name_).header();
+void LogRun::open_raw(logs::RawReader&& raw, std::span<const std::string> settings) {
+    const logs::RawHeader& log = raw_.emplace(std::move(raw)).header();
     recorded::LogCompensation asked =
         recorded::log_compensation(layered(log.settings, name_, settings, true), log, name_);
     for (const auto& lines : {log.warnings, asked.notes, asked.warnings}) append(notes_, lines);
@@ -83,18 +82,58 @@ void LogRun::open_angles(std::span<const std::string> settings) {
     if (const auto note = config::former_keys_note(log.settings, name_)) notes_.push_back(*note);
 }
 
+// A setting without a section says what the file means.
+void LogRun::open_foreign(std::span<const std::string> settings) {
+    logs::Mapping mapping;
+    std::vector<std::string> over;
+    for (const std::string& setting : settings) {
+        if (setting.find('.') < setting.find('='))
+            over.push_back(setting);
+        else
+            logs::apply_mapping_pair(mapping, setting);
+    }
+    const logs::ForeignLook look = logs::look_at_foreign(name_, mapping);
+    logs::require_whole(look);
+    for (const auto& lines : {look.table.notes, look.said}) append(notes_, lines);
+    if (look.makes == logs::Makes::raw) {
+        logs::ImportedRaw made = logs::imported_raw(look);
+        for (const auto& lines : {made.notes, made.warnings}) append(notes_, lines);
+        open_raw({name_, std::move(made.header), std::move(made.rows)}, over);
+        return;
+    }
+    const logs::ImportedAxes made = logs::imported_axes(look);
+    append(notes_, made.notes);
+    if (made.axes.size() != 1)
+        throw logs::MappingError{
+            fmt::format("{}: {} axes; the page shows one: --map axis=COLUMN", name_, made.axes.size())};
+    take_axis(made.axes.front(), over);
+}
+
+void LogRun::take_axis(const logs::ImportedAxis& axis, std::span<const std::string> settings) {
+    append(notes_, axis.warnings);
+    notes_.push_back(fmt::format("{}, {}", axis.name, axis.holds));
+    config_ = layered({{"gyro.tick_s", fmt::format("{}", 1.0 / axis.rate_hz)}}, name_, settings, false);
+    rows_ = logs::angle_rows(axis);
+}
+
 bool LogRun::advance(std::int64_t rows) {
+    for (; rows > 0 && !ended_; --rows)
+        if (!take_row()) end();
+    return !ended_;
+}
+
+bool LogRun::take_row() {
     core::HalfRecord half;
     logs::TimedAngle angle;
-    for (; rows > 0 && !ended_; --rows) {
-        if (raw_ && raw_->next(half))
-            take(half);
-        else if (angles_ && angles_->next(angle))
-            take(angle);
-        else
-            end();
-    }
-    return !ended_;
+    if (raw_ && raw_->next(half))
+        take(half);
+    else if (angles_ && angles_->next(angle))
+        take(angle);
+    else if (next_row_ < rows_.size())
+        take(logs::TimedAngle{.row = rows_[next_row_++]});
+    else
+        return false;
+    return true;
 }
 
 void LogRun::take(const core::HalfRecord& half) {
@@ -168,6 +207,10 @@ void LogRun::forget() {
     switches_.clear();
 }
 
-double LogRun::fraction_read() const { return raw_ ? raw_->fraction_read() : angles_->fraction_read(); }
+double LogRun::fraction_read() const {
+    if (raw_) return raw_->fraction_read();
+    if (angles_) return angles_->fraction_read();
+    return static_cast<double>(next_row_) / static_cast<double>(rows_.size());
+}
 
 }  // namespace zlg::lab

@@ -1,6 +1,7 @@
 #pragma once
 // A recorded log on the page: a raw log goes through the compensation as in `zlg process`, and beside it through those
-// that the page compares it with; an angle log is shown as it is. What comes out are rows of numbers.
+// that the page compares it with; an angle log is shown as it is. Text of another program is made one of these, as by
+// `zlg import`. What comes out are rows of numbers.
 
 #include <array>
 #include <cstddef>
@@ -14,6 +15,7 @@
 #include <zlg/config/config.hpp>
 #include <zlg/core/compensation/gap_bridge_state.hpp>
 #include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/imported.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/replay.hpp>
@@ -25,9 +27,11 @@ namespace zlg::lab {
 class LogRun {
 public:
     // name      of the file, for messages; it is read as page_file.cpp says.
-    // settings  over those of the log, `section.key=value` each, as --set of `zlg process`.
+    // settings  over those of the log, `section.key=value` each, as --set of `zlg process`; of a file of another
+    //           program also `key=value` of --map of `zlg import`.
     //
-    // errors  config::ConfigError, logs::FormatError, logs::IoError, with the program's own messages.
+    // errors  config::ConfigError, logs::FormatError, logs::MappingError, logs::IoError, with the program's own
+    // messages.
     LogRun(std::string name, std::span<const std::string> settings);
 
     // The next rows of the file, at most so many; false: there are no more, and all that is shown is settled.
@@ -65,8 +69,11 @@ private:
         double piezo_v = 0.0;
     };
 
-    void open_raw(std::span<const std::string> settings);
+    void open_raw(logs::RawReader&& raw, std::span<const std::string> settings);
     void open_angles(std::span<const std::string> settings);
+    void open_foreign(std::span<const std::string> settings);
+    void take_axis(const logs::ImportedAxis& axis, std::span<const std::string> settings);
+    bool take_row();
     void take(const core::HalfRecord& half);
     void take(const logs::TimedAngle& angle);
     void note_switch(const core::GapReport& gap);
@@ -78,6 +85,8 @@ private:
     config::Config config_;
     std::optional<logs::RawReader> raw_;
     std::optional<logs::AngleReader> angles_;
+    std::vector<core::AngleRow> rows_;  // in place of a reader of angles
+    std::size_t next_row_ = 0;
     bool lacks_detuning_ = false;
     std::optional<rig::Replay> configured_;
     std::vector<Compared> compared_;  // as read, by the paper

@@ -1,5 +1,6 @@
 """Logs of the reader's own on the lab page: the same angles and the same complaints as those of `zlg process`."""
 
+import math
 import re
 import tempfile
 import time
@@ -95,13 +96,47 @@ class Logs(LivingPageCase):
         hdf5 = self.folder / "log.h5"
         self.assertEqual(zlg("convert", self.raw, "--out", hdf5).returncode, 0)
         for name, content, words in (("log.h5", hdf5.read_bytes(), "is an HDF5 log; the page reads CSV"), ("a.zip", b"PK\x03\x04" + bytes(40), "a ZIP archive"),
-                                     ("empty.csv", b"", "is no log"), ("other.csv", b"a,b\n1,2\n", "is no log; allowed is a CSV log")):
+                                     ("empty.csv", b"", "holds no"), ("other.csv", b"a,b\n1,2\n", "holds one row")):
             with self.subTest(name):
                 path = self.folder / name
                 path.write_bytes(content)
                 text = self.give(path, "refused")
                 self.assertIn(words, text)
                 self.assertNotIn("\n", text)
+
+    def test_text_of_another_program_is_read_as_import_reads_it(self):
+        rates = [round(0.004 + 0.001 * math.sin(0.1 * k), 6) for k in range(3000)]
+        plain = self.folder / "vendor.csv"
+        plain.write_text("Gyro SN 0417\nZeit;Rate\n" + "".join(f"{k / 100:.2f};{rate:.6f}\n".replace(".", ",") for k, rate in enumerate(rates)))
+        text = self.give(plain, "refused")
+        for missing in ("unit=", "time_unit="):
+            self.assertIn(missing, text)
+        self.browser.fill("#log-settings", "unit=deg/s\nholds=rate\ntime_unit=s")
+        self.assertRegex(self.give(plain), r"^vendor\.csv: an angle log; 3000 ticks of 10 ms, 30 s;")
+        angle = float(re.search(r"accumulated angle (\S+) arcsec", self.browser.text("#log-text"))[1])
+        self.assertAlmostEqual(angle, 3600 * 0.01 * sum(rates), delta=1e-6)
+        self.assertIn("deg/s", self.browser.text("#log-notes"))
+
+    def test_halves_under_other_names_give_the_angles_of_the_program(self):
+        lines = [line for line in self.raw.read_text().splitlines() if not line.startswith("#")]
+        names = lines[0].split(",")
+        of = [names.index(name) for name in ("half", "bias_sign", "mode", "counts", "loop_closed")]
+        other = self.folder / "raw2.csv"
+        other.write_text("\n".join(["Nr;Sign;Helicity;N;Lock"] + [";".join(line.split(",")[k] for k in of) for line in lines[1:]]) + "\n")
+        maps = ["half=Nr", "bias_sign=Sign", "mode=Helicity", "counts=N", "loop_closed=Lock", "tick_s=0.005", "scale_arcsec=3.263", "time=none"]
+        self.browser.fill("#log-settings", "\n".join(maps))
+        self.give(other)
+        with tempfile.TemporaryDirectory() as folder:
+            self.browser.send("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            self.browser.press("#log-save")
+            found = Path(folder) / "raw2-angles.csv"
+            self.browser.wait_until(found.exists)
+            self.browser.wait_until(lambda: self.state() == "shown")
+            shown = rows_of(found)
+        out = self.folder / "angles2.csv"
+        ran = zlg("process", other, "--out", out, *[word for each in maps for word in ("--map", each)])
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertEqual(shown, rows_of(out))
 
     def test_a_dropped_file_is_read_and_one_that_is_being_read_can_be_left(self):
         big = self.folder / "big.csv"

@@ -16,7 +16,6 @@ namespace zlg::logs {
 
 namespace {
 
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest = 1e90;  // whose square, and the sum of many, is a number
 
 std::string words_of(const Mapping& mapping) {

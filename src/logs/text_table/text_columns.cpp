@@ -1,13 +1,12 @@
 #include <zlg/logs/text_columns.hpp>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <string_view>
-#include <system_error>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
 #include <zlg/text/escape.hpp>
@@ -15,6 +14,7 @@
 #include "csv/line_reader.hpp"
 #include "csv/text_fields.hpp"
 #include "dates.hpp"
+#include "file_descriptor.hpp"
 #include "text_reading.hpp"
 #include "text_recognition.hpp"
 #include "time_names.hpp"
@@ -306,12 +306,13 @@ void check(const std::string& path, const TextLayout& layout) {
 }  // namespace
 
 bool ends_with_a_line(const std::string& path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return true;
-    std::ifstream file{path, std::ios::binary};
-    if (!file.seekg(-1, std::ios::end)) return true;
-    const int last = file.get();
-    return last == '\n' || last == '\r';
+    struct stat status {};
+    // Where nothing is known of a name alone, as in the lab page, what is opened says it.
+    if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return true;
+    const FileDescriptor file = open_to_read(path);
+    if (::fstat(file.get(), &status) != 0 || status.st_size == 0) return true;
+    char last = '\n';
+    return ::pread(file.get(), &last, 1, status.st_size - 1) != 1 || last == '\n' || last == '\r';
 }
 
 std::string described(const TextColumn& column) {

@@ -148,8 +148,8 @@ private:
 
     bool header_fits(Rows rows, Reading& reading) const {
         Dialect& dialect = reading.dialect;
-        dialect.ends_empty = std::ranges::all_of(rows.begin() + (dialect.has_header ? 1 : 0), rows.end(),
-                                                 [](const auto& row) { return row.back().text.empty(); });
+        dialect.ends_empty = std::all_of(rows.begin() + (dialect.has_header ? 1 : 0), rows.end(),
+                                         [](const auto& row) { return row.back().text.empty(); });
         if (!dialect.has_header) {
             take_names_of_comment(dialect);
             return true;
