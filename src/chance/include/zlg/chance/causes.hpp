@@ -57,6 +57,7 @@ enum class Cause : std::uint16_t {
     fault_trial,
     random_gyro,
     wire_damage,
+    environment,
     benchmark = 0xfffe,
     test = 0xffff,
 };
