@@ -20,8 +20,7 @@ namespace zlg::lab {
 
 class ErrorTrack {
 public:
-    explicit ErrorTrack(const config::Config& config)
-        : meter_{config.gyro.tick_s, no_curve, study::gyro_drift(config)} {}
+    explicit ErrorTrack(const config::Config& config) : meter_{config.gyro.tick_s, no_curve, study::RunDrift{config}} {}
 
     // Once a tick, after its records: what the compensation has taken of the magnetic drift until then.
     void end_tick(std::int64_t tick, const rig::Replay& replay) {

@@ -14,8 +14,8 @@ namespace py = pybind11;
 namespace {
 
 // In the order of config::ValueKind.
-constexpr std::array kind_names{"real",   "optional_real",   "integer", "text",     "reals",
-                                "choice", "optional_choice", "choices", "interval", "column"};
+constexpr std::array kind_names{"real",    "optional_real", "integer", "text",  "reals", "choice", "optional_choice",
+                                "choices", "interval",      "column",  "points"};
 
 py::list keys() {
     py::list all;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <zlg/config/schema.hpp>
 #include <zlg/core/common/discriminator_curve.hpp>
@@ -91,6 +92,30 @@ void check_dither(const Config& config) {
         value_text(*find_key("gyro", "dither"), config)));
 }
 
+// What is wrong with points, empty where nothing is.
+std::string fault_of(const std::vector<twin::CoursePoint>& points, std::size_t least) {
+    constexpr double most = 1e6, longest_s = 1e9;
+    if (points.size() < least) return fmt::format("{} points; allowed are {} or more", points.size(), least);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const twin::CoursePoint& point = points[k];
+        if (!(std::abs(point.at_s) <= longest_s) || !(std::abs(point.value) <= most))
+            return fmt::format("point {} is [{}, {}]; allowed are numbers, times up to {:g} s, values up to {:g}",
+                               k + 1, point.at_s, point.value, longest_s, most);
+        if (k > 0 && !(point.at_s > points[k - 1].at_s))
+            return fmt::format("point {} is at {} s, the one before at {} s; allowed are rising times", k + 1,
+                               point.at_s, points[k - 1].at_s);
+    }
+    return {};
+}
+
+// Of a file that is not read yet only the name is known.
+void check_course(const char* key, const Course& course, std::size_t least) {
+    if (course.points.empty() && !course.path.empty()) return;
+    const std::string fault = fault_of(course.points, least);
+    if (fault.empty()) return;
+    throw ConfigError(fmt::format("{}{}{}: {}", key, course.path.empty() ? "" : " = ", course.path, fault));
+}
+
 void check_faults(const Faults& f) {
     const std::size_t n = f.kind.size();
     if (f.at_s.size() == n && f.duration_s.size() == n && f.size.size() == n) return;
@@ -134,6 +159,19 @@ void check_interval_limits(const Gyro& gyro, const Switching& s) {
 
 }  // namespace
 
+void check_environment(const Config& config) {
+    if (config.temperature.profile.is_given()) check_course("temperature.profile", config.temperature.profile, 2);
+    const Field& field = config.field;
+    const auto wrong = [&](const char* allowed) {
+        throw ConfigError(fmt::format("field.course: field.kind = {} needs {}",
+                                      value_text(*find_key("field", "kind"), config), allowed));
+    };
+    if (field.kind == FieldKind::steps && !field.course.path.empty()) wrong("[[time, field], ...]");
+    if (field.kind == FieldKind::file && field.course.path.empty()) wrong("the path of a file");
+    if (field.kind == FieldKind::steps) check_course("field.course", field.course, 1);
+    if (field.kind == FieldKind::file) check_course("field.course", field.course, 2);
+}
+
 void check_compensation(const Config& config) {
     for (const Key& key : all_keys()) {
         if (key.section == "compensation" || key.section == "gyro") check_range(key, config);
@@ -151,6 +189,7 @@ void check(const Config& config) {
         throw ConfigError(fmt::format("gyro.bias_chi_higher: {} numbers; allowed is up to 3", n));
     check_dither(config);
     check_motion(config.motion);
+    check_environment(config);
     check_faults(config.faults);
     if (!(config.piezo.range_min_v < config.piezo.range_max_v)) {
         throw ConfigError(fmt::format("piezo.range_min_v = {}: allowed is below piezo.range_max_v = {}",

@@ -23,6 +23,7 @@ struct TellKind {
     void operator()(const Text&) const { info.kind = ValueKind::text; }
     void operator()(const RealList&) const { info.kind = ValueKind::reals; }
     void operator()(const Column&) const { info.kind = ValueKind::column; }
+    void operator()(const Points&) const { info.kind = ValueKind::points; }
     void operator()(const Interval&) const { info.kind = ValueKind::interval; }
     void operator()(const ChoiceList& slot) const {
         info.kind = ValueKind::choices;

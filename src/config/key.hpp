@@ -103,6 +103,11 @@ struct Interval {
     Range range;
 };
 
+// Pairs of a time and a value; or the path of a file of them.
+struct Points {
+    Place<Course> value;
+};
+
 // An enumeration, by the names of its enumerators in their order; -1 while unset.
 struct Choice {
     std::span<const std::string_view> names;
@@ -154,7 +159,7 @@ constexpr ChoiceList choice_list(std::span<const std::string_view> names) {
             }};
 }
 
-using Slot = std::variant<Real, OptionalReal, Integer, Text, RealList, ChoiceList, Interval, Choice, Column>;
+using Slot = std::variant<Real, OptionalReal, Integer, Text, RealList, ChoiceList, Interval, Choice, Column, Points>;
 
 struct Key {
     std::string_view section;

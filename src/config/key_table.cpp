@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 3> magnetics{"none", "watch", "estimate"}
 constexpr std::array<std::string_view, 5> relocks{"none", "frequency", "detuning", "mean_square", "joint"};
 constexpr std::array<std::string_view, 5> bridges{"none", "constant", "linear", "quadratic", "auto"};
 constexpr std::array<std::string_view, 5> motions{"rest", "constant", "sine", "sum", "file"};
+constexpr std::array<std::string_view, 5> fields{"none", "constant", "sine", "steps", "file"};
 constexpr std::array<std::string_view, 2> column_holds{"increment", "rate"};
 
 constexpr std::array<std::string_view, 9> deviations{"adev",  "oadev",  "mdev",    "tdev",   "hdev",
@@ -133,6 +134,32 @@ const Key table[] = {
     {"drift", "random_walk_arcsec_sqrt_s", "arcsec/sqrt(s)",
      "random walk of the angle; what makes it in fidelity laser is lock-in, and this only what is presumed",
      Real{at<&C::drift, &Drift::random_walk_arcsec_sqrt_s>, {.min = 0.0, .max = 1e6}}},
+
+    {"temperature", "profile", "s, C",
+     "temperature of the gyro, straight between the points, even before and after them; a file has a column of times "
+     "and one of temperatures; unset: gyro.temperature_rise_c and drift.thermal_time_s tell it",
+     Points{at<&C::temperature, &Temperature::profile>}},
+    {"temperature", "sensor_lag_s", "s", "time constant of the sensor behind the gyro",
+     Real{at<&C::temperature, &Temperature::sensor_lag_s>, {.min = 0.0, .max = 1e6}}},
+    {"temperature", "sensor_error_c", "C", "by which the sensor says too much",
+     Real{at<&C::temperature, &Temperature::sensor_error_c>, {.min = -1e3, .max = 1e3}}},
+
+    {"field", "kind", "",
+     "magnetic field that the gyro is in, and that makes its magnetic drift; none: drift.magnetic_arcsec_s and "
+     "magnetic_thermal_arcsec_s tell that",
+     choice<&C::field, &Field::kind>(fields)},
+    {"field", "field_g", "G", "the field, for kind constant; its amplitude, for kind sine",
+     Real{at<&C::field, &Field::field_g>, presumed_drift}},
+    {"field", "frequency_hz", "Hz", "for kind sine",
+     Real{at<&C::field, &Field::frequency_hz>, {.min = 0.0, .max = 1e6}}},
+    {"field", "course", "s, G",
+     "for kind steps the field from each time on; for kind file the path, columns of times and of the field, straight "
+     "between the rows",
+     Points{at<&C::field, &Field::course>}},
+    {"field", "sensitivity_arcsec_s_g", "arcsec/(s G)", "magnetic drift by the field, at gyro.reference_temperature_c",
+     Real{at<&C::field, &Field::sensitivity_arcsec_s_g>, presumed_drift}},
+    {"field", "sensitivity_per_c", "1/C", "relative change of that sensitivity with temperature",
+     Real{at<&C::field, &Field::sensitivity_per_c>, {.min = -1.0, .max = 1.0}}},
 
     {"perimeter", "loop", "", "control of the perimeter", choice<&C::perimeter, &Perimeter::loop>(loops)},
     {"perimeter", "tau_s", "s", "time constant of the loop",

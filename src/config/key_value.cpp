@@ -25,6 +25,15 @@ std::string list_text(const std::vector<double>& values) {
     return text + "]";
 }
 
+std::string points_text(const Course& course) {
+    if (!course.path.empty()) return text::toml_string(course.path);
+    std::string text;
+    for (const twin::CoursePoint& point : course.points)
+        text += fmt::format("{}[{}, {}]", text.empty() ? "" : ", ", text::toml_real(point.at_s),
+                            text::toml_real(point.value));
+    return text.empty() ? text : "[" + text + "]";
+}
+
 std::string interval_text(const Switching& switching) {
     return switching.interval_optimal ? text::toml_string("optimal") : text::toml_real(switching.interval_s);
 }
@@ -90,6 +99,7 @@ bool is_within(const Slot& slot, const Config& config) {
                      return config.switching.interval_optimal || contains(s.range, config.switching.interval_s);
                  },
                  [&](const Choice& s) { return s.get(config) < static_cast<int>(s.names.size()); },
+                 [&](const Points&) { return true; },
                  [&](const Column& s) { return s.value(config).empty() || is_column(s.value(config), s.may_be_none); }},
         slot);
 }
@@ -111,7 +121,8 @@ std::string value_text(const Key& key, const Config& config) {
             [&](const ChoiceList& s) { return choices_text(s, config); },
             [&](const Interval&) { return interval_text(config.switching); },
             [&](const Choice& s) { return choice_text(s, config); },
-            [&](const Column& s) { return column_text(s.value(config)); }},
+            [&](const Column& s) { return column_text(s.value(config)); },
+            [&](const Points& s) { return points_text(s.value(config)); }},
         key.slot);
 }
 
@@ -131,6 +142,7 @@ std::string allowed_text(const Key& key) {
             },
             [](const Interval& s) { return fmt::format("{}, or \"optimal\"", in_words(s.range)); },
             [](const Choice& s) { return fmt::format("\"{}\"", fmt::join(s.names.begin(), s.names.end(), "\", \"")); },
+            [](const Points&) { return std::string{"[[time, value], ...] in rising times, or the path of a file"}; },
             [](const Column& s) { return fmt::format("a number {}..1000000, or a name", s.may_be_none ? 0 : 1); }},
         key.slot);
 }

@@ -95,6 +95,18 @@ struct Reader {
         for (const toml::node& element : *node.as_array()) values.push_back(real(element));
         return values;
     }
+
+    [[nodiscard]] Course course() const {
+        if (node.is_string()) return {.path = text()};
+        if (!node.is_array()) refuse(node, "an array of pairs, or a path");
+        Course course;
+        for (const toml::node& element : *node.as_array()) {
+            const toml::array* const pair = element.as_array();
+            if (pair == nullptr || pair->size() != 2) refuse(element, "a pair [time, value]");
+            course.points.push_back({real(*pair->get(0)), real(*pair->get(1))});
+        }
+        return course;
+    }
 };
 
 // A TOML value into its place in a Config.
@@ -108,6 +120,7 @@ struct Assign {
     void operator()(const Text& slot) const { slot.value(config) = read.text(); }
     void operator()(const RealList& slot) const { slot.value(config) = read.list(); }
 
+    void operator()(const Points& slot) const { slot.value(config) = read.course(); }
     void operator()(const Column& slot) const { slot.value(config) = read.column(read.node); }
 
     void operator()(const Interval&) const {

@@ -6,6 +6,9 @@
 #include <zlg/config/config.hpp>
 #include <zlg/design/relock_tables.hpp>
 #include <zlg/design/taylor.hpp>
+#include <zlg/rig/wiring.hpp>
+#include <zlg/study/compensated_run.hpp>
+#include <zlg/study/resolved.hpp>
 
 #include "paper_claims_parts.hpp"
 
@@ -18,9 +21,35 @@ using design::table_tick_s;
 constexpr double amplitude_arcsec_s = paper_oscillation.amplitude_arcsec_s;
 constexpr double oscillation_hz = paper_oscillation.frequency_hz;
 
+constexpr double slow_arcsec_s = 5.0;
+
 double highest_hz(int order) {
     return design::highest_frequency_hz({Fit::interpolation, order, paper_gap_ticks}, amplitude_arcsec_s,
                                         paper_switch_error_arcsec);
+}
+
+// What a laser reads that turns slowly, in one mode and without any drift but that of lock-in.
+double read_arcsec_s(double tick_s, core::DitherMethod dither) {
+    constexpr double run_s = 40.0;
+    config::Config c;
+    c.gyro.fidelity = config::Fidelity::laser;
+    c.gyro.tick_s = tick_s;
+    c.gyro.dither = dither;
+    c.gyro.readout = config::Readout::phase;  // whole counts would say it to a count in the run
+    c.drift.magnetic_arcsec_s = c.drift.magnetic_thermal_arcsec_s = c.drift.nonmagnetic_arcsec_s = 0.0;
+    c.motion.kind = config::MotionKind::constant;
+    c.motion.rate_arcsec_s = slow_arcsec_s;
+    c = rig::without_switching(study::resolved(c).config);
+    const auto ticks = static_cast<std::int64_t>(std::llround(run_s / tick_s));
+    return slow_arcsec_s + study::compensated_run(c, ticks, ticks).angle_error_arcsec() / run_s;
+}
+
+Finding claim_of_tick() {
+    Finding finding{"before eq (14)", {slow_arcsec_s, config::Laser{}.lock_in_left_hz}};
+    for (const auto dither : {core::DitherMethod::none, core::DitherMethod::automatic})
+        for (const double tick_s : {0.01, 0.005, 0.002, 0.001})
+            finding.values.emplace_back(read_arcsec_s(tick_s, dither));
+    return finding;
 }
 
 std::vector<Finding> claims_before_the_fit() {
@@ -35,6 +64,7 @@ std::vector<Finding> claims_before_the_fit() {
         {"before eq (14)",
          {amplitude_arcsec_s, paper_switch_error_arcsec, highest_hz(2), 1.0 / (table_tick_s * highest_hz(2)),
           highest_hz(0)}},
+        claim_of_tick(),
         {"before eq (14)", {lsb, design::counter_tick_sigma_arcsec(lsb)}},
     };
 }

@@ -25,6 +25,12 @@ twin::Motion sines(const config::Motion& m) {
     return twin::Motion::sines(m.rate_arcsec_s, std::move(sines));
 }
 
+void refuse_unread(const char* key, const config::Course& course) {
+    if (!course.path.empty() && course.points.empty())
+        throw ConfigError{
+            fmt::format("{} = {}: no files are read here; allowed is [[time, value], ...]", key, course.path)};
+}
+
 }  // namespace
 
 twin::Motion motion(const config::Config& config) {
@@ -54,6 +60,11 @@ std::int64_t run_ticks(const config::Config& config, const twin::Motion& motion)
     if (asked_s > available_s + 1e-9 * tick_s + 1e-12 * available_s)
         throw ConfigError{
             fmt::format("run.duration_s = {}: {} holds {} s of motion", asked_s, config.motion.path, available_s)};
+    if (const config::Field& field = config.field;
+        field.kind == config::FieldKind::file && !field.course.points.empty())
+        if (const double last_s = field.course.points.back().at_s; asked_s > last_s)
+            throw ConfigError{
+                fmt::format("run.duration_s = {}: {} holds {} s of the field", asked_s, field.course.path, last_s)};
     const double ticks = std::floor(asked_s / tick_s * (1.0 + 1e-12) + 1e-9);
     if (!(ticks >= 1.0))
         throw ConfigError{fmt::format("run.duration_s = {}: allowed is at least one tick, {} s", asked_s, tick_s)};
@@ -62,9 +73,13 @@ std::int64_t run_ticks(const config::Config& config, const twin::Motion& motion)
 
 twin::TwinConfig twin_config(const config::Config& config) {
     check(config);
+    refuse_unread("temperature.profile", config.temperature.profile);
+    if (config.field.kind == config::FieldKind::file) refuse_unread("field.course", config.field.course);
     return {.seed = config.run.seed,
             .gyro = config.gyro,
             .drift = config.drift,
+            .temperature = config.temperature,
+            .field = config.field,
             .perimeter = config.perimeter,
             .piezo = config.piezo,
             .light = config.light,

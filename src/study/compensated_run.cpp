@@ -12,7 +12,7 @@ MeteredCompensation::MeteredCompensation(const config::Config& config, std::int6
     : config_{config},
       replay_{rig::asked_compensation(config)},
       finder_{config.compensation.relock_ticks},
-      meter_{config.gyro.tick_s, stride, gyro_drift(config)} {}
+      meter_{config.gyro.tick_s, stride, RunDrift{config}} {}
 
 void MeteredCompensation::take(const rig::LoopHalf& half, core::LightSamples light) {
     if (!is_second_) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <zlg/logs/text_columns.hpp>
+#include <zlg/recorded/environment.hpp>
 #include <zlg/rig/laser_agreement.hpp>
 #include <zlg/study/design_study.hpp>
 #include <zlg/study/switch_trial.hpp>
@@ -21,7 +22,7 @@ std::string whole_drift_note(const config::Config& config) {
 }  // namespace
 
 Resolved resolved(const config::Config& config) {
-    rig::LaserAgreement agreement = rig::agreed_with_laser(config);
+    rig::LaserAgreement agreement = rig::agreed_with_laser(recorded::with_environment(config));
     Resolved made{.config = std::move(agreement.config),
                   .notes = std::move(agreement.notes),
                   .warnings = std::move(agreement.warnings)};

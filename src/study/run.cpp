@@ -257,7 +257,7 @@ VariantResult one_mode(const RunTask& task, const twin::Motion& motion, std::int
     Variant variant{
         "one_mode", "the same gyro, never switched",
         rig::Replay{rig::compensation_config(unswitched, core::RelockMethod::none, unswitched.compensation.bridge)},
-        ErrorMeter{unswitched.gyro.tick_s, curve_stride(task, ticks), gyro_drift(unswitched)}};
+        ErrorMeter{unswitched.gyro.tick_s, curve_stride(task, ticks), RunDrift{unswitched}}};
     std::array<double, core::history_ticks> truth{};
     const std::deque<SwitchWindow> no_windows;
     const auto take = [&](const core::AngleRow& row) {

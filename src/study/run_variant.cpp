@@ -44,7 +44,7 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride,
     std::vector<Variant> all;
     const auto add = [&](const config::Config& of, const Choice& c) {
         all.push_back({c.name, c.meaning, rig::Replay{rig::compensation_config(of, c.relock, c.bridge)},
-                       ErrorMeter{config.gyro.tick_s, stride, gyro_drift(config)}});
+                       ErrorMeter{config.gyro.tick_s, stride, RunDrift{config}}});
     };
     for (const Choice& c : choices)
         if (is_wanted(wanted, c.name)) add(paper, c);

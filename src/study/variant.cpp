@@ -48,11 +48,11 @@ void Drift::add(double n, double step_s, double t_s, double from_arcsec, double 
 double Drift::slope_arcsec_s() const { return tt_ > 0.0 ? te_ / tt_ : 0.0; }
 
 double ErrorMeter::drift_arcsec(const core::AngleRow& row, const TickTruth& truth, const SwitchWindow& window) const {
-    const double nonmagnetic_arcsec = drift_law_.nonmagnetic_arcsec_s * tick_s_;
+    const double nonmagnetic_arcsec = drift_law_.nonmagnetic_arcsec_s() * tick_s_;
     const bool is_measured = window.gap_is_over() && row.tick >= window.first_tick + window.n_ticks;
     if (!is_measured) return nonmagnetic_arcsec;
     const double start_s = static_cast<double>(row.tick) * tick_s_;
-    const double magnetic_arcsec = design::magnetic_integral_arcsec(drift_law_, start_s, start_s + tick_s_);
+    const double magnetic_arcsec = drift_law_.magnetic_arcsec(start_s, start_s + tick_s_);
     return nonmagnetic_arcsec + row.mode * magnetic_arcsec - truth.taken_out_arcsec;
 }
 

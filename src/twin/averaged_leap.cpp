@@ -30,11 +30,15 @@ struct AveragedGyro::Drifts {
     int helicity = 1;
 };
 
-// What a piezo with a memory, or a fault, does to a half follows from all halves before it.
+// What a piezo with a memory, a sensor that lags, or a fault, does to a half follows from all halves before it. A course of
+// the temperature or of a field has no integral here.
 std::int64_t AveragedGyro::quiet_halves() {
     const PiezoConfig& z = config_.piezo;
-    const bool has_memory = z.hysteresis != 0.0 || z.creep_per_decade != 0.0 || z.mirror_hz != 0.0;
-    return has_memory ? 0 : housing_.halves_without_fault();
+    const TemperatureConfig& t = config_.temperature;
+    const bool has_memory =
+        z.hysteresis != 0.0 || z.creep_per_decade != 0.0 || z.mirror_hz != 0.0 || t.sensor_lag_s != 0.0;
+    const bool has_course = !t.profile.points.empty() || config_.field.kind != FieldKind::none;
+    return has_memory || has_course ? 0 : housing_.halves_without_fault();
 }
 
 Leap AveragedGyro::leap(std::int64_t halves, const LeapWay& way) {
@@ -68,7 +72,7 @@ Leap AveragedGyro::leap(std::int64_t halves, const LeapWay& way) {
     made.counts = static_cast<std::int64_t>(counter_.value() - counter);
     housing_.count_on(counter_.value());
     made.rounding_arcsec = -config_.gyro.scale_arcsec * counter_.fraction();
-    made.temperature_c = housing_.temperature_c();
+    made.temperature_c = housing_.temperature_c() + config_.temperature.sensor_error_c;
     made.light_ratio = ratio(housing_.photodiodes().power(end_s), light);
     made.balance_ratio = ratio(housing_.photodiodes().gain_growth(end_s), balance);
     made.bias_ratio = ratio(bias_hz(), hz_before);

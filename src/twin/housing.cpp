@@ -82,10 +82,22 @@ Housing::Housing(const TwinConfig& config, std::shared_ptr<const ErrorSignal> si
       counter_limit_{config.counter_max_hz},
       warming_{half_s_, config.drift.thermal_time_s},
       faults_{config.faults},
-      frame_faults_{config.seed} {}
+      frame_faults_{config.seed} {
+    warming_first_ = warming_end_ = warming_at(0);
+    sensed_c_ = config_.gyro.reference_temperature_c + config_.gyro.temperature_rise_c * warming_first_;
+    const double lag_s = config_.temperature.sensor_lag_s;
+    sensor_gain_ = lag_s > 0.0 ? -core::maths::expm1(-half_s_ / lag_s) : 1.0;
+}
+
+double Housing::warming_at(std::uint64_t half) {
+    const std::span<const CoursePoint> profile = config_.temperature.profile.points;
+    if (profile.empty()) return warming_.at(half);
+    const double now_c = between(profile, static_cast<double>(half) * half_s_);
+    return (now_c - config_.gyro.reference_temperature_c) / config_.gyro.temperature_rise_c;
+}
 
 double Housing::drift_lambda(double warming, double shock_c) const {
-    return config_.perimeter.expansion_lambda_per_c * config_.gyro.temperature_rise_c * warming +
+    return config_.perimeter.expansion_lambda_per_c * config_.gyro.temperature_rise_c * (warming - warming_first_) +
            config_.perimeter.expansion_lambda_per_c * shock_c;
 }
 
@@ -101,10 +113,13 @@ int Housing::bias_sign() const {
     return index_ % 2 == 0 ? config_.gyro.first_bias_sign : -config_.gyro.first_bias_sign;
 }
 
+double Housing::above_reference_c() const {
+    return config_.gyro.temperature_rise_c * 0.5 * (warming_start_ + warming_end_) +
+           0.5 * (shock_start_c_ + shock_end_c_);
+}
+
 double Housing::bias_growth() const {
-    const double above_reference_c =
-        config_.gyro.temperature_rise_c * 0.5 * (warming_start_ + warming_end_) + 0.5 * (shock_start_c_ + shock_end_c_);
-    return (1.0 + config_.gyro.bias_temperature_coefficient_per_c * above_reference_c) * coil_ratio();
+    return (1.0 + config_.gyro.bias_temperature_coefficient_per_c * above_reference_c()) * coil_ratio();
 }
 
 double Housing::coil_ratio() const { return bias_ratio(faults_.active(), bias_sign(), start_s(), end_s()); }
@@ -118,9 +133,12 @@ double Housing::turned_arcsec(double from_s, double to_s) const {
 }
 
 double Housing::magnetic_arcsec_s() const {
-    return config_.drift.magnetic_arcsec_s +
-           config_.drift.magnetic_thermal_arcsec_s * 0.5 * (warming_start_ + warming_end_) +
-           config_.gyro.scale_arcsec * field_counts_s(faults_.active(), start_s(), end_s());
+    const double own_arcsec_s =
+        config_.field.kind == FieldKind::none
+            ? config_.drift.magnetic_arcsec_s +
+                  config_.drift.magnetic_thermal_arcsec_s * 0.5 * (warming_start_ + warming_end_)
+            : twin::magnetic_arcsec_s(config_.field, above_reference_c(), 0.5 * (start_s() + end_s()));
+    return own_arcsec_s + config_.gyro.scale_arcsec * field_counts_s(faults_.active(), start_s(), end_s());
 }
 
 // Once for a half, however often it is entered.
@@ -146,7 +164,7 @@ void Housing::enter_faults() {
 }
 
 void Housing::begin_half(const core::ActuatorFrame& actuator) {
-    const double warming_next = warming_.at(index_ + 1);
+    const double warming_next = warming_at(index_ + 1);
     enter_faults();
     const bool half_wave_changes = config_.piezo.half_wave_temperature_coefficient_per_c != 0.0 || !faults_.is_empty();
     if (half_wave_changes) perimeter_.take_half_wave(half_wave_v());
@@ -180,7 +198,9 @@ void Housing::read_slow(core::SensorFrame& sensor, double perimeter_v) {
     sensor.piezo_v = adc_.quantised_v(perimeter_v + noise_v);
     const double noise_a = config_.coil_noise_a > 0.0 ? config_.coil_noise_a * coil_noise_.gauss(index_) : 0.0;
     sensor.coil_current_a = coil_adc_.quantised_v(sensor.bias_sign * coil_plateau_a * coil_ratio() + noise_a);
-    sensor.temperature_c = temperature_c();
+    const double block_c = temperature_c();
+    sensed_c_ = sensor_gain_ < 1.0 ? sensed_c_ + sensor_gain_ * (block_c - sensed_c_) : block_c;
+    sensor.temperature_c = sensed_c_ + config_.temperature.sensor_error_c;
 }
 
 double Housing::temperature_c() const {

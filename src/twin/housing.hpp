@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include <zlg/twin/environment.hpp>
 #include <zlg/twin/twin_config.hpp>
 #include <zlg/twin/twin_half.hpp>
 
@@ -76,6 +77,8 @@ public:
 
 private:
     [[nodiscard]] double drift_lambda(double warming, double shock_c) const;
+    [[nodiscard]] double warming_at(std::uint64_t half);  // as a part of gyro.temperature_rise_c, at its start
+    [[nodiscard]] double above_reference_c() const;       // mean of the half entered
     [[nodiscard]] double half_wave_v() const { return half_wave_v(warming_end_) * half_wave_ratio_now(); }
     [[nodiscard]] double half_wave_v(double warming) const;
     [[nodiscard]] double half_wave_ratio_now() const;
@@ -101,8 +104,11 @@ private:
     bool is_faulty_ = false;                // length, light or opening of the half entered
     std::int32_t offset_before_ticks_ = 0;  // of the latch that began the half
     std::uint64_t index_ = 0;
-    double warming_start_ = 0.0;  // at the start and the end of the half
+    double warming_first_ = 0.0;  // at the start of the run, and at the start and the end of the half
+    double warming_start_ = 0.0;
     double warming_end_ = 0.0;
+    double sensed_c_ = 0.0;       // by the sensor of the temperature, before its error
+    double sensor_gain_ = 0.0;    // part of what it lacks that it gains in a half
     double shock_start_c_ = 0.0;  // warming by faults
     double shock_end_c_ = 0.0;
 };

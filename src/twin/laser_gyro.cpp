@@ -35,7 +35,9 @@ constexpr double per_signal_sq = 0.15;
 constexpr double allowed_edge_rad = 1e-5;
 
 double largest_field_g(const TwinConfig& c) {
-    double hottest_c = std::max(0.0, c.gyro.bias_temperature_coefficient_per_c * c.gyro.temperature_rise_c);
+    const TemperatureSpan span = temperature_span(c.gyro, c.temperature);
+    const double growth_per_c = c.gyro.bias_temperature_coefficient_per_c;
+    double hottest_c = std::max({0.0, growth_per_c * span.least_c, growth_per_c * span.most_c});
     double most = 1.0;  // of the current over its own
     for (const Fault& fault : c.faults) {
         if (fault.kind == FaultKind::thermal_shock)

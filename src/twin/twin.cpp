@@ -83,6 +83,25 @@ void validate_warmed_bias(const GyroConfig& gyro, std::span<const Fault> in_orde
     }
 }
 
+// The same that warming is held to, at both ends of a profile.
+void validate_profile(const TwinConfig& c) {
+    if (c.temperature.profile.points.empty()) return;
+    if (c.gyro.temperature_rise_c == 0.0)
+        refuse("gyro.temperature_rise_c", 0.0,
+               "any but 0 where temperature.profile is given: drift.magnetic_thermal_arcsec_s is the drift by it");
+    const TemperatureSpan span = temperature_span(c.gyro, c.temperature);
+    require_within("perimeter.expansion_lambda_per_c * (most - least of temperature.profile)",
+                   c.perimeter.expansion_lambda_per_c * (span.most_c - span.least_c), -max_travel_lambda,
+                   max_travel_lambda);
+    for (const double above_c : {span.least_c, span.most_c}) {
+        require_bias_sign(c.gyro, above_c, "(temperature.profile - gyro.reference_temperature_c)");
+        validate_half_wave(c,
+                           "piezo.half_wave_v * (1 + piezo.half_wave_temperature_coefficient_per_c * "
+                           "(temperature.profile - gyro.reference_temperature_c))",
+                           c.piezo.half_wave_v * (1.0 + c.piezo.half_wave_temperature_coefficient_per_c * above_c));
+    }
+}
+
 // Each that acts costs its part of every half.
 void validate_overlap(std::span<const Fault> in_order) {
     std::vector<double> ends_s;
@@ -130,6 +149,7 @@ void validate(const TwinConfig& config) {
     const FaultPlan plan{config.faults};
     validate_overlap(plan.all());
     validate_warmed_bias(config.gyro, plan.all());
+    validate_profile(config);
     if (config.gyro.fidelity == Fidelity::laser) validate(config.laser);  // the section does nothing in the other
     for (const Fault& fault : config.faults) validate_fault(fault, config.perimeter.loop);
 }

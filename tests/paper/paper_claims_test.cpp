@@ -134,7 +134,8 @@ TEST(PaperClaims, substitution) {
     expect_numbers("figures 9 and 10", {"26.0, 77.6 and 154.5", "1.4, 8.2 and 26.8"});
     expect_numbers("figure 11", {"2.4 arcsec", "1.39", "1.94 to 2.54", "2.45 to 3.29", "5.57 to 12.1"});
     expect_numbers("eq (15)", {"26.3 and 35.9", "17.3 and 47.9", "3.4 and 1.3"});
-    expect_numbers("before eq (14)", {"15.3 Hz", "4.4 Hz", "1.33"});
+    expect_numbers("before eq (14)",
+                   {"15.3 Hz", "4.4 Hz", "1.33", "4.96 arcsec/s with ticks of 10 ms", "0.08 of 2 ms", "reads 5.02"});
     expect_numbers("conclusion 2", {"1.50", "4.93"});
 }
 

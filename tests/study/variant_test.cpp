@@ -50,7 +50,7 @@ TEST(ErrorMeter, adds_up_a_window_and_the_whole_run) {
 // compensation has taken out of two of them is none either.
 TEST(ErrorMeter, the_drift_within_a_window_is_no_error_of_the_switch) {
     const SwitchWindow window{.first_tick = 2, .n_ticks = 2, .last_tick = 7};
-    ErrorMeter meter{0.5, 2, {2.0, 4.0, 0.0, 3000.0}};
+    ErrorMeter meter{0.5, 2, design::GyroDrift{2.0, 4.0, 0.0, 3000.0}};
     for (int tick = 0; tick < 8; ++tick) {
         const double mode = tick < 2 ? 1.0 : tick < 4 ? 0.0 : -1.0;
         const double taken_out = tick > 5 ? -1.5 : 0.0;
@@ -67,7 +67,7 @@ TEST(ErrorMeter, the_drift_within_a_window_is_no_error_of_the_switch) {
 // A window of ticks 2..4: the rounding after tick 1 stays in the angle, that after tick 4 is given back.
 TEST(ErrorMeter, roundings_count_at_the_edges_of_the_gap) {
     const SwitchWindow window{.first_tick = 2, .n_ticks = 2, .last_tick = 4};
-    ErrorMeter meter{0.5, 2, {0.0, 0.0, 0.0, 3000.0}};
+    ErrorMeter meter{0.5, 2, design::GyroDrift{0.0, 0.0, 0.0, 3000.0}};
     for (int tick = 0; tick < 8; ++tick)
         meter.take({.tick = tick, .dtheta_final_arcsec = 11.0},
                    {.rotation_arcsec = 10.0, .rounding_arcsec = -0.1 * (tick + 1)}, {window});

@@ -9,11 +9,11 @@
 
 #include <zlg/core/common/maths.hpp>
 #include <zlg/core/health.hpp>
-#include <zlg/design/magnetic_angle.hpp>
 #include <zlg/rig/closed_loop.hpp>
 #include <zlg/rig/switch_count.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/compensated_run.hpp>
+#include <zlg/study/gyro_drift.hpp>
 #include <zlg/trials/gyro_campaign.hpp>
 
 namespace zlg::trials {
@@ -34,6 +34,7 @@ class Trial {
 public:
     explicit Trial(const config::Config& config)
         : config_{config},
+          drift_{config},
           motion_{rig::motion(config)},
           n_ticks_{rig::run_ticks(config, motion_)},
           loop_{config, motion_},
@@ -94,15 +95,9 @@ private:
 
     // No sigma is about the drift.
     [[nodiscard]] double drift_arcsec(const core::AngleRow& row) const {
-        const config::Drift& d = config_.drift;
-        const design::GyroDrift law{.nonmagnetic_arcsec_s = d.nonmagnetic_arcsec_s,
-                                    .magnetic_arcsec_s = d.magnetic_arcsec_s,
-                                    .magnetic_thermal_arcsec_s = d.magnetic_thermal_arcsec_s,
-                                    .thermal_time_s = d.thermal_time_s};
         const double tick_s = config_.gyro.tick_s;
         const double from_s = static_cast<double>(row.tick) * tick_s;
-        return d.nonmagnetic_arcsec_s * tick_s +
-               row.mode * design::magnetic_integral_arcsec(law, from_s, from_s + tick_s);
+        return drift_.nonmagnetic_arcsec_s() * tick_s + row.mode * drift_.magnetic_arcsec(from_s, from_s + tick_s);
     }
 
     // The end may fall into a switch: then what was before it counts.
@@ -163,6 +158,7 @@ private:
     [[nodiscard]] bool is_polynomial() const { return config_.compensation.bridge != core::BridgeMethod::automatic; }
 
     const config::Config& config_;
+    study::RunDrift drift_;
     twin::Motion motion_;
     std::int64_t n_ticks_;
     rig::ClosedLoop loop_;

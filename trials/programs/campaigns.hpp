@@ -16,6 +16,7 @@ Work manoeuvres(CLI::App& app);
 Work sigma(CLI::App& app);
 Work faults(CLI::App& app);
 Work gyros(CLI::App& app);
+Work environment(CLI::App& app);
 Work drift(CLI::App& app);
 Work magnetic(CLI::App& app);
 Work intervals(CLI::App& app);

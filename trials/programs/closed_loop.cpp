@@ -9,6 +9,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/trials/drift_campaign.hpp>
+#include <zlg/trials/environment_campaign.hpp>
 #include <zlg/trials/fault_campaign.hpp>
 #include <zlg/trials/gyro_campaign.hpp>
 #include <zlg/trials/magnetic_gate.hpp>
@@ -139,6 +140,19 @@ Work gyros(CLI::App& app) {
         const std::vector<GyroOutcome> outcomes = run(*campaign);
         if (*each) fmt::print("{}\n", gyros_markdown(outcomes));
         fmt::print("{}", summary_markdown(outcomes));
+        return judged(complaints(outcomes));
+    };
+}
+
+// An hour of a gyro takes about five seconds.
+Work environment(CLI::App& app) {
+    const auto campaign = std::make_shared<EnvironmentCampaign>();
+    app.add_option("GYROS", campaign->gyros)->check(CLI::PositiveNumber);
+    app.add_option("--seconds", campaign->run_s)->check(CLI::PositiveNumber);
+    add_seed_and_threads(app, *campaign);
+    return [campaign] {
+        const std::vector<EnvironmentOutcome> outcomes = run(*campaign);
+        fmt::print("{}", markdown(outcomes));
         return judged(complaints(outcomes));
     };
 }

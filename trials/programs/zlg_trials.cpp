@@ -27,6 +27,7 @@ constexpr Campaign campaigns[] = {
     {"sigma", "Error of a switch over its sigma, random gyros in random steady motions", sigma},
     {"faults", "Random faults in closed loop: found, missed, recovered from", faults},
     {"gyros", "Random gyros without faults in closed loop", gyros},
+    {"environment", "Gyros in changing temperature and field", environment},
     {"drift", "Drift of long runs in closed loop", drift},
     {"magnetic", "The magnetic estimator on bases that move", magnetic},
     {"events", "Gyros by halves and from event to event: the same law of their errors", events},

@@ -135,6 +135,9 @@ double bytes_a_tick(const RunOptions& options, logs::LogFormat format, int light
 // errors  UsageError for a run that the page could not repeat; logs::IoError where there is no page.
 std::string asked_lab_page(const RunOptions& options, const config::Config& config) {
     if (!options.lab) return "";
+    if (config.temperature.profile.is_file() || config.field.course.is_file())
+        throw UsageError{
+            "--lab: the page reads no files; leave --lab out, or give temperature.profile and field.course as numbers"};
     if (config.motion.kind == config::MotionKind::file)
         throw UsageError{"--lab: the page reads no motion file; leave --lab out, or choose another motion.kind"};
     return lab_page();

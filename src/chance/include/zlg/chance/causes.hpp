@@ -59,6 +59,7 @@ enum class Cause : std::uint16_t {
     random_gyro,
     wire_damage,
     event_gyro,
+    environment,
     benchmark = 0xfffe,
     test = 0xffff,
 };

@@ -16,6 +16,7 @@
 #include <zlg/core/compensation/magnetic_drift.hpp>
 #include <zlg/core/control/switch_schedule.hpp>
 #include <zlg/core/methods.hpp>
+#include <zlg/twin/environment_config.hpp>
 #include <zlg/twin/gyro_config.hpp>
 #include <zlg/twin/laser_config.hpp>
 
@@ -28,6 +29,10 @@ using twin::Quadrature;
 using twin::Readout;
 using Schedule = core::ScheduleKind;
 using Drift = twin::DriftConfig;
+using twin::FieldKind;
+using Course = twin::CourseConfig;
+using Field = twin::FieldConfig;
+using Temperature = twin::TemperatureConfig;
 using Laser = twin::LaserConfig;
 using Light = twin::LightConfig;
 using Photodiodes = twin::PhotodiodesConfig;
@@ -115,6 +120,8 @@ struct Config {
     Gyro gyro;
     Laser laser;
     Drift drift;
+    Temperature temperature;
+    Field field;
     Perimeter perimeter;
     Piezo piezo;
     Light light;

@@ -26,7 +26,19 @@ struct ConfigError : std::runtime_error {
 // Dotted keys (`gyro.tick_s`) and their values as TOML, in the order of the table or of a log.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-enum class ValueKind { real, optional_real, integer, text, reals, choice, optional_choice, choices, interval, column };
+enum class ValueKind {
+    real,
+    optional_real,
+    integer,
+    text,
+    reals,
+    choice,
+    optional_choice,
+    choices,
+    interval,
+    column,
+    points
+};
 
 // What is known of one key.
 struct KeyInfo {
@@ -79,6 +91,9 @@ void check(const Config& config);
 
 // The part of `check` on which the compensation of a recorded log depends: the keys of [compensation], tick and scale.
 void check_compensation(const Config& config);
+
+// The part of `check` on temperature and field; of a file, once its points are there, also on these.
+void check_environment(const Config& config);
 
 // Whether a layer has set this key, or code has made it other than the default.
 //

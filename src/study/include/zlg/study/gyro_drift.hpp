@@ -1,11 +1,15 @@
 #pragma once
-// The drift of a configuration, as the theory has it.
+// The drift of a configuration.
+
+#include <cmath>
 
 #include <zlg/config/config.hpp>
 #include <zlg/design/magnetic_angle.hpp>
+#include <zlg/twin/environment.hpp>
 
 namespace zlg::study {
 
+// As the theory has it.
 inline design::GyroDrift gyro_drift(const config::Config& config) {
     const config::Drift& d = config.drift;
     return {.nonmagnetic_arcsec_s = d.nonmagnetic_arcsec_s,
@@ -13,5 +17,37 @@ inline design::GyroDrift gyro_drift(const config::Config& config) {
             .magnetic_thermal_arcsec_s = d.magnetic_thermal_arcsec_s,
             .thermal_time_s = d.thermal_time_s};
 }
+
+// Of a run, in its environment: how far the drift that changes its sign turns the gyro in the left mode.
+class RunDrift {
+public:
+    RunDrift(const design::GyroDrift& law) : law_{law} {}  // of no profile and no field
+    explicit RunDrift(const config::Config& config)
+        : law_{gyro_drift(config)}, gyro_{config.gyro}, temperature_{config.temperature}, field_{config.field} {}
+
+    [[nodiscard]] double nonmagnetic_arcsec_s() const { return law_.nonmagnetic_arcsec_s; }
+
+    // In a tick, as the twin makes it of the middle of a time, where profile or field is given.
+    [[nodiscard]] double magnetic_arcsec(double start_s, double end_s) const {
+        const bool has_profile = !temperature_.profile.points.empty();
+        if (!has_profile && field_.kind == twin::FieldKind::none)
+            return design::magnetic_integral_arcsec(law_, start_s, end_s);
+        const double middle_s = 0.5 * (start_s + end_s);
+        const double above_c =
+            has_profile ? twin::between(temperature_.profile.points, middle_s) - gyro_.reference_temperature_c
+                        : gyro_.temperature_rise_c * (1.0 - std::exp(-middle_s / law_.thermal_time_s));
+        const double rate_arcsec_s =
+            field_.kind != twin::FieldKind::none
+                ? twin::magnetic_arcsec_s(field_, above_c, middle_s)
+                : law_.magnetic_arcsec_s + law_.magnetic_thermal_arcsec_s * above_c / gyro_.temperature_rise_c;
+        return rate_arcsec_s * (end_s - start_s);
+    }
+
+private:
+    design::GyroDrift law_;
+    twin::GyroConfig gyro_;
+    twin::TemperatureConfig temperature_;
+    twin::FieldConfig field_;
+};
 
 }  // namespace zlg::study

@@ -5,10 +5,11 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <zlg/core/gyro_compensation.hpp>
-#include <zlg/design/magnetic_angle.hpp>
+#include <zlg/study/gyro_drift.hpp>
 #include <zlg/study/switch_window.hpp>
 
 namespace zlg::study {
@@ -73,8 +74,8 @@ class ErrorMeter {
 public:
     // stride  ticks between two points of the curve.
     // drift   of the gyro.
-    ErrorMeter(double tick_s, std::int64_t stride, const design::GyroDrift& drift)
-        : tick_s_{tick_s}, stride_{stride}, drift_law_{drift} {}
+    ErrorMeter(double tick_s, std::int64_t stride, RunDrift drift)
+        : tick_s_{tick_s}, stride_{stride}, drift_law_{std::move(drift)} {}
 
     // A final row, what is true of its tick, and the switches known by now, oldest first.
     void take(const core::AngleRow& row, const TickTruth& truth, const std::deque<SwitchWindow>& windows);
@@ -90,11 +91,11 @@ public:
     [[nodiscard]] double drift_arcsec_s() const { return drift_.slope_arcsec_s(); }
     // Without the constant part that both modes share, which a measurement removes with its bias.
     [[nodiscard]] double drift_without_nonmagnetic_arcsec_s() const {
-        return drift_arcsec_s() - drift_law_.nonmagnetic_arcsec_s;
+        return drift_arcsec_s() - drift_law_.nonmagnetic_arcsec_s();
     }
     [[nodiscard]] double angle_error_arcsec() const { return error_.value(); }
     [[nodiscard]] double angle_error_without_nonmagnetic_arcsec() const {
-        return angle_error_arcsec() - drift_law_.nonmagnetic_arcsec_s * tick_s_ * static_cast<double>(n_ticks_);
+        return angle_error_arcsec() - drift_law_.nonmagnetic_arcsec_s() * tick_s_ * static_cast<double>(n_ticks_);
     }
     [[nodiscard]] const Curve& curve() const { return curve_; }
 
@@ -104,7 +105,7 @@ private:
 
     double tick_s_;
     std::int64_t stride_;
-    design::GyroDrift drift_law_;
+    RunDrift drift_law_;
     std::int64_t n_ticks_ = 0;
     core::ExactSum error_;
     Drift drift_;

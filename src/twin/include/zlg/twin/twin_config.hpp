@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include <zlg/twin/environment_config.hpp>
 #include <zlg/twin/faults.hpp>
 #include <zlg/twin/gyro_config.hpp>
 #include <zlg/twin/laser_config.hpp>
@@ -20,6 +21,8 @@ struct TwinConfig {
     std::uint64_t seed = 1;
     GyroConfig gyro{};
     DriftConfig drift{};
+    TemperatureConfig temperature{};  // its files are read
+    FieldConfig field{};              // the same
     PerimeterConfig perimeter{};
     PiezoConfig piezo{};
     LightConfig light{};
