@@ -101,10 +101,5 @@ constexpr auto adjacent_find(Range&& range, Are are = {}) {
     return std::adjacent_find(begin(range), end(range), are);
 }
 
-template <class Range, class Other>
-constexpr bool equal(Range&& range, Other&& other) {
-    return std::equal(begin(range), end(range), begin(other), end(other));
-}
-
 }  // namespace std::ranges
 #endif

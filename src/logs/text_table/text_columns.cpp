@@ -309,8 +309,8 @@ bool ends_with_a_line(const std::string& path) {
     struct stat status {};
     // Where nothing is known of a name alone, as in the lab page, what is opened says it.
     if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return true;
-    const FileDescriptor file = open_to_read(path);
-    if (::fstat(file.get(), &status) != 0 || status.st_size == 0) return true;
+    const FileDescriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    if (!file.is_open() || ::fstat(file.get(), &status) != 0 || status.st_size == 0) return true;
     char last = '\n';
     return ::pread(file.get(), &last, 1, status.st_size - 1) != 1 || last == '\n' || last == '\r';
 }
