@@ -59,8 +59,12 @@ std::vector<Column> columns_of(const Table& table) {
         const bool is_free = columns[i].is_number || i + 1 == n || n <= most_free_columns;
         columns[i].width = is_free ? longest : std::min(longest, widest_words);
         columns[i].width = std::max(columns[i].width, std::min(narrowest_header, width_of(cell_at(table.header, i))));
-        for (const std::string& word : wrapped(cell_at(table.header, i), 1))
-            columns[i].width = std::max(columns[i].width, width_of(word));
+        const auto hold_words = [&](const Lines& row) {
+            for (const std::string& word : wrapped(cell_at(row, i), 1))
+                columns[i].width = std::max(columns[i].width, width_of(word));
+        };
+        hold_words(table.header);
+        std::ranges::for_each(table.rows, hold_words);
     }
     return columns;
 }
@@ -103,6 +107,7 @@ std::string text(const Page& page) {
         out += fmt::format("\n{}\n{:-<{}}\n", section.heading, "", width_of(section.heading));
         for (const std::string& words : section.paragraphs) out += flowed(words);
         for (const Table& table : section.tables) out += "\n" + text(table);
+        if (!section.code.empty()) out += "\n" + section.code;
     }
     return out;
 }

@@ -170,29 +170,36 @@ std::string verdict(const Summary& summary) {
 
 }  // namespace
 
+report::Page sweep_summary(const Gyros& gyros, const Rows& rows) {
+    const Description& d = gyros.description();
+    const Summary summary = summary_of(d, rows);
+    Section numbers{.heading = "What came out", .tables = {summary_table(summary)}};
+    if (summary.yield) numbers.tables.push_back(yield_table(summary));
+    return {.title = "Many Zeeman laser gyros",
+            .verdict = verdict(summary),
+            .lead = fmt::format("{} of {} gyros of one description, each with its own values and its own noise.",
+                                summary.gyros, d.n_gyros),
+            .sections = {std::move(numbers), worst_section(gyros, rows)}};
+}
+
 report::Page sweep_page(const Gyros& gyros, const Rows& rows) {
     const Description& d = gyros.description();
     const Summary summary = summary_of(d, rows);
     const Columns columns = columns_of(gyros, rows);
-    report::Page page{
-        .title = "Many Zeeman laser gyros",
-        .verdict = verdict(summary),
-        .lead = fmt::format("{} of {} gyros of one description, each with its own values and its own noise.",
-                            summary.gyros, d.n_gyros)};
-    Section numbers{.heading = "What came out", .tables = {summary_table(summary)}};
-    if (summary.yield) numbers.tables.push_back(yield_table(summary));
+    report::Page page = sweep_summary(gyros, rows);
     for (std::size_t k = 0; k < d.metrics.size() && summary.failed < summary.gyros; ++k) {
         if (!varies(columns.metrics[k])) continue;
-        numbers.figures.push_back(distribution_figure(d.metrics[k], columns.metrics[k], k));
-        numbers.figures.push_back(yield_figure(d.metrics[k], columns.metrics[k], summary.gyros, k));
+        std::vector<Figure>& figures = page.sections.front().figures;
+        figures.push_back(distribution_figure(d.metrics[k], columns.metrics[k], k));
+        figures.push_back(yield_figure(d.metrics[k], columns.metrics[k], summary.gyros, k));
     }
-    page.sections.push_back(std::move(numbers));
+    std::vector<Section> causes;
     if (summary.yield) {
         const Placement placement{gyros, rows};
-        if (!placement.ranges().empty()) page.sections.push_back(tolerance_section(d, placement));
+        if (!placement.ranges().empty()) causes.push_back(tolerance_section(d, placement));
     }
-    if (!columns.parameters.empty() && summary.failed < summary.gyros) page.sections.push_back(dependence(d, columns));
-    page.sections.push_back(worst_section(gyros, rows));
+    if (!columns.parameters.empty() && summary.failed < summary.gyros) causes.push_back(dependence(d, columns));
+    page.sections.insert(page.sections.begin() + 1, causes.begin(), causes.end());
     page.sections.push_back({.heading = "How this page was made",
                              .paragraphs = {"Saved as sweep.toml, the lines below make it again: zlg sweep sweep.toml "
                                             "--out results.h5 --page page.html."},

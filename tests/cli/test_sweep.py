@@ -142,8 +142,13 @@ class FromEventToEvent(SweepTest):
 class Page(SweepTest):
     def test_is_written_beside_the_results_and_over_nothing(self):
         page = self.folder / "page.html"
-        self.succeed("sweep", self.description(), "--out", self.folder / "r.h5", "--page", page)
+        said = self.succeed("sweep", self.description(), "--out", self.folder / "r.h5", "--page", page).stdout
         text = page.read_text()
+        for shown in ("What came out", "Gyros to look at", "zlg run ", "written to"):
+            self.assertIn(shown, said)
+        self.assertNotIn("Tolerances", said)
+        none = self.succeed("sweep", self.description(), "--out", self.folder / "none.h5", "--part", "13/13")
+        self.assertTrue(none.stdout.startswith("no gyros\nwritten to "), none.stdout)
         for heading in ("What came out", "Tolerances to be held", "What the numbers depend on", "Gyros to look at"):
             self.assertIn(heading, text)
         self.assertIn("<svg", text)

@@ -32,13 +32,19 @@ TEST(PageText, ALongCellOfWordsTakesLinesAndEndsBesideTheNumbers) {
               "\n");
 }
 
+TEST(PageText, AWordIsNotDividedHoweverLongItIs) {
+    const std::string word(30, 'a');
+    const Table table{.caption = "", .header = {"names", "n", "m", "k"}, .rows = {{word, "1", "2", "3"}}};
+    EXPECT_EQ(text(table), "names" + std::string(25, ' ') + "  n  m  k\n" + word + "  1  2  3\n\n");
+}
+
 TEST(PageText, HasTheVerdictAndTheSectionsButWhatIsOfThePage) {
     const Page page{.title = "title",
                     .verdict = "All is well.",
                     .lead = "lead",
-                    .sections = {{.heading = "First", .paragraphs = {"some words"}},
+                    .sections = {{.heading = "First", .paragraphs = {"some words"}, .code = "to copy\n"},
                                  {.heading = "Made", .paragraphs = {"by nobody"}, .is_of_page = true}}};
-    EXPECT_EQ(text(page), "All is well.\n\nFirst\n-----\nsome words\n");
+    EXPECT_EQ(text(page), "All is well.\n\nFirst\n-----\nsome words\n\nto copy\n");
 }
 
 TEST(PageText, WrapsParagraphsAtBlanksAndTakesNoLineFromAText) {

@@ -6,7 +6,8 @@
 
 namespace zlg::sweep {
 
-// rows  one at least.
+// rows  one at least. The summary is without figures: what a text shows of the page.
+[[nodiscard]] report::Page sweep_summary(const Gyros& gyros, const Rows& rows);
 [[nodiscard]] report::Page sweep_page(const Gyros& gyros, const Rows& rows);
 
 }  // namespace zlg::sweep
