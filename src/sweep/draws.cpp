@@ -92,8 +92,6 @@ std::vector<std::uint64_t> Draws::sobol_point(std::int64_t index, std::size_t n_
     return bits;
 }
 
-// Of Saltelli's design, row by row: A, A with the column of one parameter from B, and so on, B. A is the first half of
-// the dimensions of a point, B the second.
 std::vector<double> Draws::sobol_places(std::int64_t gyro) const {
     const std::vector<std::uint64_t> bits = sobol_point(gyro, n_sobol_);
     std::vector<double> places;

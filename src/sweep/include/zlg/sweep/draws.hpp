@@ -31,9 +31,7 @@ public:
     // sobol        Sobol's sequence with the direction numbers of S. Joe and F. Y. Kuo (SIAM J. Sci. Comput. 30, 2008,
     // 2635), one
     //              dimension for each parameter that is drawn so, in their order; gyro k has the point k in the order
-    //              of Gray's code; with sensitivity the gyros are the rows of Saltelli's design (sensitivity.hpp), A,
-    //              A_B^1 ... A_B^d, B, and row j is the point j of 2 d dimensions; with sobol_shift the bits of each
-    //              dimension are added modulo 2 to 64 random ones
+    //              of Gray's code; with sobol_shift the bits of each dimension are added modulo 2 to 64 random ones
     [[nodiscard]] std::vector<Value> values(std::int64_t gyro) const;
 
 private:
