@@ -8,7 +8,7 @@ export interface Key {
     meaning: string;
     default: string; // TOML; empty where it is unset
     allowed: string;
-    kind: "real" | "optional_real" | "integer" | "text" | "reals" | "choice" | "optional_choice" | "choices" | "interval" | "column";
+    kind: "real" | "optional_real" | "integer" | "text" | "reals" | "choice" | "optional_choice" | "choices" | "interval" | "column" | "points";
     choices: string[];
 }
 

@@ -41,7 +41,7 @@ def _toml(value: Any) -> str:
 class Config(Sections):
     """Everything configurable. The defaults are the gyro of the paper.
 
-    Members are the sections `run`, `gyro`, `laser`, `drift`, `perimeter`, `piezo`, `photodiodes`, `switching`, `compensation`, `motion`, `faults`,
+    Members are the sections `run`, `gyro`, `laser`, `drift`, `perimeter`, `piezo`, `photodiodes`, `temperature`, `field`, `switching`, `compensation`, `motion`, `faults`,
     `design` and `analysis`. A member that is None is unset. What is out of its range is refused by `check`, and by every function
     that takes a configuration, as ConfigError: key, value, what is allowed.
     """

@@ -28,7 +28,7 @@ def test_the_dataclasses_are_those_of_the_table_of_keys():
 def test_a_key_of_each_kind_has_the_type_of_its_values():
     hints = {key: typing.get_type_hints(getattr(zlg.config, section))[key]
              for section, key in (("Gyro", "tick_s"), ("Run", "duration_s"), ("Gyro", "light_samples"), ("Design", "run_lengths_s"),
-                                  ("Perimeter", "loop"), ("Switching", "interval_s"), ("Motion", "column"))}  # fmt: skip
+                                  ("Perimeter", "loop"), ("Switching", "interval_s"), ("Motion", "column"), ("Temperature", "profile"))}  # fmt: skip
     assert hints == {
         "tick_s": float,
         "duration_s": typing.Optional[float],
@@ -37,6 +37,7 @@ def test_a_key_of_each_kind_has_the_type_of_its_values():
         "loop": typing.Literal["analog", "exponential", "digital"],
         "interval_s": typing.Union[float, typing.Literal["optimal"]],
         "column": typing.Optional[typing.Union[int, str]],
+        "profile": typing.Optional[typing.Union[str, list[list[float]]]],
     }
 
 

@@ -1,9 +1,8 @@
 #pragma once
 // The drift of a configuration.
 
-#include <cmath>
-
 #include <zlg/config/config.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/design/magnetic_angle.hpp>
 #include <zlg/twin/environment.hpp>
 
@@ -35,7 +34,7 @@ public:
         const double middle_s = 0.5 * (start_s + end_s);
         const double above_c =
             has_profile ? twin::between(temperature_.profile.points, middle_s) - gyro_.reference_temperature_c
-                        : gyro_.temperature_rise_c * (1.0 - std::exp(-middle_s / law_.thermal_time_s));
+                        : gyro_.temperature_rise_c * -core::maths::expm1(-middle_s / law_.thermal_time_s);
         const double rate_arcsec_s =
             field_.kind != twin::FieldKind::none
                 ? twin::magnetic_arcsec_s(field_, above_c, middle_s)
