@@ -55,12 +55,13 @@ std::vector<Correction> open_corrections(const Requirement& r) {
 
 std::vector<Reading> open_readings(const Requirement& r) {
     const bool is_x4 = r.base.laser.quadrature == twin::Quadrature::x4;
-    if (!is_open(r, "gyro.readout")) {
-        if (r.base.gyro.readout == config::Readout::phase) return {Reading::phase};
-        return is_x4 ? std::vector{Reading::x4} : std::vector{Reading::x1, Reading::x4};
+    std::vector<Reading> open;
+    if (is_open(r, "gyro.readout") || r.base.gyro.readout == config::Readout::counts) {
+        if (!is_x4) open.push_back(Reading::x1);
+        if (is_x4 || is_open(r, "laser.quadrature")) open.push_back(Reading::x4);
     }
-    if (!is_open(r, "laser.quadrature")) return {is_x4 ? Reading::x4 : Reading::x1, Reading::phase};
-    return {Reading::x1, Reading::x4, Reading::phase};
+    if (is_open(r, "gyro.readout") || r.base.gyro.readout == config::Readout::phase) open.push_back(Reading::phase);
+    return open;
 }
 
 // The gyro's own where the range holds it, else the end next to it; then the ends.
@@ -88,11 +89,10 @@ std::string why_not_tick(const Requirement& r, double tick_s) {
                                   .rc_s = gyro.piezo.rc_s,
                                   .slew_lambda_s = 0.5 * gyro.piezo.slew_v_s / gyro.piezo.half_wave_v};
     constexpr double settled_lambda = 0.01;
-    const double needed_s = design::relock_time_s(loop, gyro.perimeter.miss_lambda, settled_lambda, 2000);
-    const double corrected_s = tick_s * gyro.compensation.relock_ticks;
-    if (needed_s <= corrected_s) return "";
-    return fmt::format("the loop needs {:.3g} ms to come within {} wavelength, the corrected ticks are {:.3g} ms",
-                       1e3 * needed_s, settled_lambda, 1e3 * corrected_s);
+    const int corrected = gyro.compensation.relock_ticks;
+    if (std::isfinite(design::relock_time_s(loop, gyro.perimeter.miss_lambda, settled_lambda, corrected))) return "";
+    return fmt::format("the loop does not come within {} wavelength in the corrected ticks, {:.3g} ms", settled_lambda,
+                       1e3 * tick_s * corrected);
 }
 
 std::vector<config::Schedule> open_schedules(const Requirement& r) {

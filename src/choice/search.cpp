@@ -33,7 +33,10 @@ double sigma_of_share(std::int64_t k, std::int64_t n) {
     return std::sqrt(a * b / (a + b + 1.0)) / (a + b);
 }
 
-config::Fidelity fidelity_of(const Requirement& requirement) { return requirement.base.gyro.fidelity; }
+config::Fidelity fidelity_of(const Requirement& requirement) {
+    const config::Config& base = requirement.base;
+    return config::is_given(base, "gyro.fidelity") ? base.gyro.fidelity : config::Fidelity::events;
+}
 
 bool Tester::is_hopeless(const Evaluation& e, double sigmas) const {
     const auto n = static_cast<std::int64_t>(e.trials.size());

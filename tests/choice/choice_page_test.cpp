@@ -11,7 +11,8 @@ using namespace choice;
 Answer made(const Requirement& r) {
     Answer a{.met = true, .probability = 0.75, .probability_sigma = 0.09};
     a.proof.candidate = {.interval_s = 45.0};
-    for (int k = 1; k <= 20; ++k) a.proof.trials.push_back({.state = TrialState::good, .error_arcsec = k});
+    for (int k = 1; k <= 20; ++k)
+        a.proof.trials.push_back({.state = TrialState::good, .error_arcsec = static_cast<double>(k)});
     a.gyro = with(r.base, a.proof.candidate);
     a.parts = {{"switch errors", 3.0}, {"all", 3.0}};
     a.budget = {{"switches", 12.0}};

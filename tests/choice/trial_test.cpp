@@ -21,7 +21,12 @@ double by_segments(const design::GyroDrift& gyro, double run_s, double interval_
     double sum = 0.0, sign = 1.0, at = 0.0, end = first_s;
     while (at < run_s) {
         const double to = std::min(end, run_s);
-        sum += sign * (to - at) / 6.0 * (om(at) + 4.0 * om(0.5 * (at + to)) + om(to));
+        constexpr int parts = 50;
+        const double step = (to - at) / parts;
+        for (int k = 0; k < parts; ++k) {
+            const double from = at + k * step;
+            sum += sign * step / 6.0 * (om(from) + 4.0 * om(from + 0.5 * step) + om(from + step));
+        }
         sign = -sign;
         at = to;
         end += interval_s;
