@@ -18,6 +18,7 @@ enum class Cause : std::uint16_t {
     coil,
     fringe,
     fringe_jitter,
+    quantum,
 
     // 0x0100..0x01ff: its faults
     faults = 0x0100,
