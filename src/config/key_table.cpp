@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 3> loops{"analog", "exponential", "digita
 constexpr std::array<std::string_view, 4> dithers{"none", "auto", "paired", "random"};
 constexpr std::array<std::string_view, 3> fidelities{"averaged", "laser", "events"};
 constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
+constexpr std::array<std::string_view, 2> dispersions{"unsaturated", "saturated"};
 constexpr std::array<std::string_view, 2> readouts{"count", "phase"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
 constexpr std::array<std::string_view, 2> schedules{"fixed", "measured"};
@@ -112,8 +113,14 @@ const Key table[] = {
     {"laser", "opposite_sigma_coupling", "",
      "cross-saturation of waves on opposite components over that on the same one",
      Real{at<&C::laser, &Laser::opposite_sigma_coupling>, {.min = 0.0, .max = 1.0}}},
+    {"laser", "dispersion", "",
+     "frequencies pulled by the gas without light, the paper's parabola, or with the holes that the waves burn",
+     choice<&C::laser, &Laser::dispersion>(dispersions)},
     {"laser", "bias_field_g", "G", "plateau of the bias field at gyro.reference_temperature_c",
      Real{at<&C::laser, &Laser::bias_field_g>, {.min = 1e-6, .max = 1e4}}},
+    {"laser", "beam_power_w", "W",
+     "light that either beam loses in all, at zero detuning and field: its quantum noise; 0: none",
+     Real{at<&C::laser, &Laser::beam_power_w>, {.min = 0.0, .max = 1e3}}},
     {"laser", "lock_in_left_hz", "Hz", "beat frequency below which equal waves of the left mode lock",
      Real{at<&C::laser, &Laser::lock_in_left_hz>, {.min = 0.0, .max = 1e6}}},
     {"laser", "lock_in_right_hz", "Hz", "beat frequency below which equal waves of the right mode lock",
@@ -132,7 +139,8 @@ const Key table[] = {
     {"drift", "nonmagnetic_arcsec_s", "arcsec/s", "drift that is the same in both modes",
      Real{at<&C::drift, &Drift::nonmagnetic_arcsec_s>, any_finite}},
     {"drift", "random_walk_arcsec_sqrt_s", "arcsec/sqrt(s)",
-     "random walk of the angle; what makes it in fidelity laser is lock-in, and this only what is presumed",
+     "random walk of the angle; what makes it in fidelity laser is lock-in and quantum noise, and this only what is "
+     "presumed",
      Real{at<&C::drift, &Drift::random_walk_arcsec_sqrt_s>, {.min = 0.0, .max = 1e6}}},
 
     {"temperature", "profile", "s, C",

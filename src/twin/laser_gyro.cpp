@@ -44,7 +44,10 @@ double largest_field_g(const TwinConfig& c) {
             hottest_c += std::abs(c.gyro.bias_temperature_coefficient_per_c * fault.size);
         if (fault.kind == FaultKind::bias_asymmetric) most *= 1.0 + std::abs(fault.size);
     }
-    return c.laser.bias_field_g * (1.0 + hottest_c) * most * (1.0 + 1e-9);
+    // What 400 deg/s shift the lines by, where that is little.
+    const double rotation_hz = 1.44e6 / (c.gyro.scale_arcsec * counts_per_turn(c.laser.quadrature));
+    const double rotation_ratio = 0.5 * rotation_hz / (c.laser.zeeman_hz_per_g * c.laser.bias_field_g);
+    return c.laser.bias_field_g * ((1.0 + hottest_c) * most + std::min(0.1, rotation_ratio)) * (1.0 + 1e-9);
 }
 
 // A reversal that would meet its neighbour is none.
@@ -70,7 +73,8 @@ LaserGyro::LaserGyro(const TwinConfig& config, Motion motion)
       // The difference of two beams has sqrt(2) times the noise of one, over a sum of two levels.
       light_noise_{std::sqrt(2.0) * level * std::abs(signal_->averaged().discriminator_per_lambda) *
                    config.gyro.light_noise_lambda},
-      light_stream_{config.seed, chance::Cause::light} {}
+      light_stream_{config.seed, chance::Cause::light},
+      quantum_noise_{config.seed, chance::Cause::quantum} {}
 
 const TwinHalf& LaserGyro::advance(const core::ActuatorFrame& actuator) {
     const BiasHalf bias = enter(actuator);
@@ -134,9 +138,12 @@ void LaserGyro::take_light(const BiasHalf& bias, core::SensorFrame& sensor) {
 void LaserGyro::live_through_half(const BiasHalf& bias, TwinTruth& truth) {
     truth.dtheta_arcsec = turned_arcsec(housing_.start_s(), housing_.end_s());
     truth.detuning_end_lambda = housing_.perimeter().mode().detuning_lambda;
+    rotation_hz_ = truth.dtheta_arcsec / fringe_arcsec_ / housing_.half_s();
     followed_ = 0;
     live_edge(bias, true, truth);
     live_plateau(bias, truth);
+    beats_.diffuse(housing_.half_s(), quantum_noise_.gauss(housing_.index(), 0),
+                   quantum_noise_.gauss(housing_.index(), 1));
     live_edge(bias, false, truth);
 }
 
@@ -147,7 +154,7 @@ void LaserGyro::see_fringe(TwinHalf& half) {
                                 .amplitude = housing_.power() * core::maths::hypot(z.s, z.c),
                                 .quarter = beats_.beats().latch_quarters(),
                                 .plateau_hz = housing_.bias_sign() * followed_ * reference_.plateau_hz,
-                                .rotation_hz = half.truth.dtheta_arcsec / fringe_arcsec_ / housing_.half_s()},
+                                .rotation_hz = rotation_hz_},
                                half.sensor);
 }
 
@@ -214,6 +221,10 @@ Stretch LaserGyro::stretch(double from_s, double duration_s, double drive_hz) co
     s.perimeter_lambda = {course_.at(from_s), course_.at(from_s + 0.5 * duration_s), course_.at(from_s + duration_s)};
     s.duration_s = duration_s;
     s.common_hz = drive_hz;
+    // gyro.scale_arcsec is what an undetuned turn counts, with what the gas takes from it.
+    const double pull = signal_->averaged().scale_pull;
+    s.pulled_hz = rotation_hz_ * pull / (1.0 - pull);
+    s.rotation_g = 0.5 * (rotation_hz_ + s.pulled_hz) / config_.laser.zeeman_hz_per_g;
     s.helicity_hz = housing_.magnetic_arcsec_s() / fringe_arcsec_;
     if (housing_.light_is_faulty()) {
         const LightParts left = housing_.light_at(from_s + 0.5 * duration_s);

@@ -66,6 +66,8 @@ private:
     Reference reference_;
     double light_noise_;
     Noise light_stream_;
+    NoiseAhead<2> quantum_noise_;
+    double rotation_hz_ = 0.0;       // mean beat of the rotation in the half
     std::int32_t offset_ticks_ = 0;  // of the reversal that began the half
     int followed_ = 0;               // helicity that the counter follows
     TwinHalf half_{};

@@ -102,6 +102,24 @@ TEST(LaserAgreement, the_walk_of_lock_in_and_the_counts_of_a_fringe_follow_too) 
     EXPECT_NEAR(made.config.gyro.bias_hz, 4.0 * 60430.0 * 0.99, 20.0);
 }
 
+// 0.61 arcsec/sqrt(s) of 39 uW in 16 cm with a loss of 0.007, by an independent computation, and 0.14 of lock-in.
+TEST(LaserAgreement, the_walk_of_quantum_noise_is_taken) {
+    const rig::LaserAgreement made = rig::agreed_with_laser(laser({"laser.beam_power_w=39e-6"}));
+    EXPECT_NEAR(made.config.drift.random_walk_arcsec_sqrt_s, std::hypot(0.61, 0.14), 0.01);
+}
+
+// The law of a bias with holes is no parabola; it is taken with its higher powers or not at all.
+TEST(LaserAgreement, higher_powers_are_taken_of_saturated_dispersion) {
+    const rig::LaserAgreement made = rig::agreed_with_laser(laser({"laser.dispersion=saturated"}));
+    EXPECT_EQ(made.config.gyro.bias_chi_higher.size(), 3u);
+    EXPECT_TRUE(made.warnings.empty()) << all(made.warnings);
+    const config::Config calibrated = rig::calibrated_by_laser(laser({"laser.dispersion=saturated"}));
+    EXPECT_TRUE(rig::agreed_with_laser(calibrated).warnings.empty());
+    zlg::test::expect_contains(
+        all(rig::agreed_with_laser(laser({"laser.dispersion=saturated", "gyro.bias_chi=3.6"})).warnings),
+        "gyro.bias_chi = 3.6 is presumed");
+}
+
 // Unequal isotopes make the two sides unlike, and the bias is largest beside where the loop settles.
 TEST(LaserAgreement, the_centre_of_unequal_isotopes_is_taken_with_the_points) {
     for (const char* share : {"laser.upper_isotope_ratio=0.535", "laser.upper_isotope_ratio=0.47"}) {

@@ -2,6 +2,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/rig/closed_loop.hpp>
+#include <zlg/rig/laser_agreement.hpp>
 #include <zlg/rig/laser_calibration.hpp>
 #include <zlg/rig/wiring.hpp>
 
@@ -60,6 +61,24 @@ TEST(LaserLoop, the_false_drift_after_a_miss_of_0_22_is_that_of_table_1) {
         sum += drift;
     }
     EXPECT_NEAR(sum, 8525.0, 0.08 * 8525.0);
+}
+
+// As far above threshold as one mode alone lases.
+TEST(LaserLoop, long_rings_switch_like_short_ones) {
+    const std::pair<double, double> rings[] = {{0.28, 1.2}, {0.40, 1.1}, {0.70, 1.03}};
+    for (const auto& [perimeter_m, gain_loss] : rings) {
+        SCOPED_TRACE(perimeter_m);
+        config::Config c = laser_gyro();
+        c.laser.perimeter_m = perimeter_m;
+        c.laser.gain_loss_ratio = gain_loss;
+        c.perimeter.miss_lambda = 0.05;
+        const auto halves = first_switch(rig::agreed_with_laser(c).config, 40);
+        for (std::size_t h = 20; h < halves.size(); ++h) {
+            EXPECT_EQ(halves[h].record.mode, -1) << h;
+            EXPECT_TRUE(halves[h].record.valid && halves[h].record.loop_closed) << h;
+        }
+        EXPECT_NEAR(halves.back().record.detuning_lambda, 0.0, 0.01);
+    }
 }
 
 TEST(LaserLoop, the_digital_loop_sees_the_light_of_the_laser_too) {

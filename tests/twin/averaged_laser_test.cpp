@@ -6,6 +6,7 @@ namespace zlg::twin::averaged_laser_test {
 
 TEST(AveragedLaser, HasThePublishedFiguresOfTheDefaultGyro) {
     const AveragedLaser a = averaged_laser(FourWave{LaserConfig{}}, 15.0);
+    EXPECT_NEAR(a.scale_pull, 60430.0 / (2.0 * 15.0 * 1.82e6), 2e-6);
     EXPECT_NEAR(a.bias_hz, 60430.0, 5.0);
     EXPECT_NEAR(a.bias_chi, 3.59, 0.005);
     EXPECT_NEAR(a.discriminator_per_lambda, 0.332, 0.02 * 0.332);

@@ -52,6 +52,54 @@ TEST(TwinLaser, AHalfCountsTheBiasOfItsPlateauLessItsEdges) {
     EXPECT_NEAR(static_cast<double>(count_between(first, twin.advance(frame(true, 1)))), -expected, 1.1);
 }
 
+std::int64_t signed_count(const TwinHalf& half) { return static_cast<std::int64_t>(half.sensor.counter); }
+
+// Schawlow and Townes: the beat of two beams spreads by (FSR mu)^2 h nu/(4 pi^2 P) square turns a second. Of two whole
+// counts the parts are cut off, which adds 1/6.
+TEST(TwinLaser, AtRestTheBeatWalksAsQuantumNoiseSays) {
+    std::mt19937_64 random{7};
+    std::uniform_real_distribution<double> uniform{0.0, 1.0};
+    const auto drawn = [&](double low, double high) { return low * std::pow(high / low, uniform(random)); };
+    for (int draw = 0; draw < 6; ++draw) {
+        TwinConfig config = as_laser(held_gyro());
+        config.laser.perimeter_m = drawn(0.10, 0.28);
+        config.laser.round_trip_loss_ratio = drawn(0.002, 0.01);
+        config.laser.beam_power_w = drawn(1e-10, 1e-9);
+        config.seed = static_cast<std::uint64_t>(draw + 1);
+        Twin twin{config, Motion::rest()};
+        constexpr int n_blocks = 4000;
+        constexpr int halves_a_block = 8;
+        double sum_sq = 0.0;
+        std::int64_t before = signed_count(advance(twin, frame(true, 1), halves_a_block).back());
+        for (int block = 0; block < n_blocks; ++block) {
+            const std::int64_t now = signed_count(advance(twin, frame(true, 1), halves_a_block).back());
+            sum_sq += static_cast<double>((now - before) * (now - before));
+            before = now;
+        }
+        const double fsr_loss_hz = 299792458.0 / config.laser.perimeter_m * config.laser.round_trip_loss_ratio;
+        const double per_second = fsr_loss_hz * fsr_loss_hz * 6.62607015e-34 * 4.7376e14 /
+                                  (4.0 * std::numbers::pi * std::numbers::pi * config.laser.beam_power_w);
+        const double found = (sum_sq / n_blocks - 1.0 / 6.0) / (halves_a_block * 2.5e-3);
+        EXPECT_NEAR(std::sqrt(found / per_second), 1.0, 0.05) << draw;
+    }
+}
+
+// Rotation and field move waves and lines alike, so the gas takes f0/(2 z) = 1107 ppm of a turn's counts, and less as
+// the bias falls with the detuning. gyro.scale_arcsec holds where there is none.
+TEST(TwinLaser, TheScaleMovesWithTheBias) {
+    constexpr double rate_arcsec_s = 4e5;
+    constexpr int n = 1600;  // halves, 4 s
+    const auto counts = [&](double dl) {
+        Twin twin{as_laser(held_gyro()), Motion::sines(rate_arcsec_s, {})};
+        const TwinHalf before = advance(twin, frame(true, 1, 150.0 + 80.0 * dl), 20).back();
+        return static_cast<double>(count_between(before, advance(twin, frame(true, 1, 150.0 + 80.0 * dl), n).back()));
+    };
+    const double undetuned = rate_arcsec_s / TwinConfig{}.gyro.scale_arcsec * n * 2.5e-3;
+    EXPECT_NEAR(counts(0.0), undetuned, 1.5);
+    const double more = plateau_hz / (2.0 * 15.0 * 1.82e6) * 3.59 * 0.19 * 0.19 * undetuned;
+    EXPECT_NEAR(counts(0.19) - counts(0.0), more, 2.5);
+}
+
 // Half a wavelength further the other helicity has the opposite beat and the opposite discriminator.
 TEST(TwinLaser, TheOtherModeHasTheOtherSign) {
     Twin twin{as_laser(held_gyro()), Motion::rest()};

@@ -83,6 +83,14 @@ void fit_chi(const FourWave& laser, double field_g, double range_lambda, Average
     }
 }
 
+// Rotation moves a wave from its line as a field moves the line from the wave: half of the beat is a Zeeman shift.
+double scale_pull(const FourWave& laser, double field_g) {
+    const double step_g = 1e-3 * field_g;
+    const double change_hz =
+        laser.at(0.0, field_g + step_g).left.bias_hz - laser.at(0.0, field_g - step_g).left.bias_hz;
+    return change_hz / (2.0 * step_g * 2.0 * laser.config().zeeman_hz_per_g);
+}
+
 void find_limits(const FourWave& laser, double field_g, AveragedLaser& result) {
     for (const LaserZone& zone : laser_zones(laser, field_g, -0.25, 0.25)) {
         const double nearest =
@@ -107,6 +115,7 @@ AveragedLaser averaged_laser(const FourWave& laser, double field_g, double fit_r
     fit_chi(laser, field_g, fit_range_lambda, result);
     result.settled_lambda = settled(laser, field_g);
     result.discriminator_per_lambda = slope(laser, field_g, result.settled_lambda);
+    result.scale_pull = scale_pull(laser, field_g);
     find_limits(laser, field_g, result);
     return result;
 }

@@ -1,7 +1,5 @@
 #include <zlg/twin/four_wave.hpp>
 
-#include <algorithm>
-
 #include "gas.hpp"
 #include "laser_frame.hpp"
 
@@ -21,12 +19,7 @@ FourWave::FourWave(const LaserConfig& config)
 LaserLight FourWave::at(double perimeter_lambda, double field_g) const {
     const LaserFrame frame{perimeter_lambda, field_g};
     const GasPoint point = gas_->at(frame.near_lambda, frame.far_lambda, gas_->shift_of(frame.field_g));
-    const Balance balance = steady_state(point.competition);
-    FrameLight light{{}, point.near_bias_hz, point.far_bias_hz};
-    for (unsigned i = 0; i < n_waves; ++i) {
-        if (balance.lit >> i & 1U) light.intensity[i] = std::max(balance.value[i], 0.0);
-    }
-    return frame.light(light);
+    return frame.light(point.light(steady_state(point.competition)));
 }
 
 }  // namespace zlg::twin

@@ -1,13 +1,12 @@
 #include "gas.hpp"
 
+#include <algorithm>
 #include <numbers>
 
-#include "lorentz_average.hpp"
+#include "light.hpp"
 
 namespace zlg::twin {
 namespace {
-
-constexpr double light_m_s = 299792458.0;
 
 constexpr std::array<double, n_waves> direction{1.0, -1.0, 1.0, -1.0};
 constexpr std::array<double, n_waves> shift_sign{1.0, -1.0, -1.0, 1.0};
@@ -21,7 +20,8 @@ Gas::Gas(const LaserConfig& c)
       spectral_range_{light_m_s / c.perimeter_m / c.doppler_half_width_hz},
       shift_per_g_{c.zeeman_hz_per_g / c.doppler_half_width_hz},
       opposite_coupling_{c.opposite_sigma_coupling},
-      loss_{c.round_trip_loss_ratio} {
+      loss_{c.round_trip_loss_ratio},
+      is_saturated_{c.dispersion == Dispersion::saturated} {
     gain_ = c.gain_loss_ratio / gain_loss(0.0);
     pulling_hz_ = light_m_s / c.perimeter_m / (2.0 * std::numbers::pi) * 0.5 * gain_;
 }
@@ -32,6 +32,17 @@ double Gas::gain_loss(double detuning_lambda) const {
         line += share_[k] * average_line(Hole{detuning_lambda * spectral_range_ - line_[k], half_width_});
     }
     return gain_ * line / loss_;
+}
+
+FrameLight GasPoint::light(const Balance& balance) const {
+    FrameLight light{{}, near_bias_hz, far_bias_hz};
+    for (unsigned i = 0; i < n_waves; ++i) {
+        if (!(balance.lit >> i & 1U)) continue;
+        light.near_bias_hz -= near_push_hz[i] * balance.value[i];
+        light.far_bias_hz -= far_push_hz[i] * balance.value[i];
+        light.intensity[i] = std::max(balance.value[i], 0.0);
+    }
+    return light;
 }
 
 // A wave that runs backwards meets the velocity of its own hole with the other sign: the hole lies at s Delta, and
@@ -51,9 +62,9 @@ GasPoint Gas::at(double near_lambda, double far_lambda, double shift) const {
         for (unsigned i = 0; i < n_waves; ++i) {
             point.competition.net_gain[i] += gain * average_line(holes[i]);
             dispersion[i] += share_[k] * direction[i] * average_dispersion(holes[i]);
+            if (is_saturated_) add_push(i, share_[k], holes, point);
             for (unsigned j = 0; j <= i; ++j) {
-                const double coupling = shift_sign[i] == shift_sign[j] ? 1.0 : opposite_coupling_;
-                saturation[i][j] += gain * coupling * average_overlap(holes[i], holes[j]);
+                saturation[i][j] += gain * coupling(i, j) * average_overlap(holes[i], holes[j]);
                 saturation[j][i] = saturation[i][j];
             }
         }
@@ -61,6 +72,17 @@ GasPoint Gas::at(double near_lambda, double far_lambda, double shift) const {
     point.near_bias_hz = pulling_hz_ * (dispersion[1] - dispersion[0]);
     point.far_bias_hz = pulling_hz_ * (dispersion[3] - dispersion[2]);
     return point;
+}
+
+double Gas::coupling(unsigned i, unsigned j) const { return shift_sign[i] == shift_sign[j] ? 1.0 : opposite_coupling_; }
+
+// Part of the bias that is wave i's: cw less than ccw by the pulling.
+void Gas::add_push(unsigned i, double share, const std::array<Hole, n_waves>& holes, GasPoint& point) const {
+    auto& push_hz = i < 2 ? point.near_push_hz : point.far_push_hz;
+    // The pulling is against the dispersion, the dispersion against the direction, and ccw against cw: all ways one
+    // sign.
+    for (unsigned j = 0; j < n_waves; ++j)
+        push_hz[j] -= pulling_hz_ * share * coupling(i, j) * average_push(holes[i], holes[j]);
 }
 
 }  // namespace zlg::twin

@@ -6,6 +6,7 @@
 
 #include <zlg/core/common/maths.hpp>
 
+#include "laser.hpp"
 #include "noise.hpp"
 
 namespace zlg::twin {
@@ -40,19 +41,25 @@ LaserBeats::LaserBeats(const LaserConfig& config, std::uint64_t seed, const Lase
       threshold_{2.0 * config.comparator_threshold * table.exact().centre_intensity()},
       min_light_{faint_ratio * table.exact().centre_intensity()},
       usual_amplitude_{2.0 * table.exact().centre_intensity()},
+      walk_turns_{quantum_walk_turns(config)},
       counts_quarters_{config.quadrature == Quadrature::x4},
       beats_{beats_of(seed, threshold_)},
       end_light_{table_.at(0.0, 0.0)} {}
 
+// Only the distance of a wave from its line matters: of either mode, rotation makes of it what a field would.
 LaserBeats::Lights LaserBeats::lights(const Stretch& s) {
+    const auto field = [&s](std::size_t k) {
+        return s.field_g[k] - lasing_mode(s.perimeter_lambda[k]).helicity() * s.rotation_g;
+    };
+    const double start_g = field(0);
     Lights made;
-    const bool goes_on = s.perimeter_lambda[0] == end_perimeter_ && s.field_g[0] == end_field_;
-    made.start = goes_on ? end_light_ : table_.at(s.perimeter_lambda[0], s.field_g[0]);
-    made.middle = table_.at(s.perimeter_lambda[1], s.field_g[1]);
-    made.end = table_.at(s.perimeter_lambda[2], s.field_g[2]);
+    const bool goes_on = s.perimeter_lambda[0] == end_perimeter_ && start_g == end_field_;
+    made.start = goes_on ? end_light_ : table_.at(s.perimeter_lambda[0], start_g);
+    made.middle = table_.at(s.perimeter_lambda[1], field(1));
     end_perimeter_ = s.perimeter_lambda[2];
-    end_field_ = s.field_g[2];
-    end_light_ = made.end;
+    end_field_ = field(2);
+    end_light_ = table_.at(end_perimeter_, end_field_);
+    made.end = end_light_;
     return made;
 }
 
@@ -63,7 +70,7 @@ Beat LaserBeats::beat(const Stretch& s, const Lights& lights, int helicity, doub
     pair.ccw *= s.ccw_part;
     if (!(std::min(pair.cw, pair.ccw) > min_light_)) return {};
     const StartMiddleEnd bias{lights.start.of(helicity).bias_hz, pair.bias_hz, lights.end.of(helicity).bias_hz};
-    const double mean_hz = s.common_hz + helicity * s.helicity_hz + mean_of(bias);
+    const double mean_hz = s.common_hz + s.pulled_hz + helicity * s.helicity_hz + mean_of(bias);
     const double half_change_hz = 0.5 * slant * (bias[2] - bias[0]);
     return {mean_hz - half_change_hz, mean_hz + half_change_hz,
             (helicity > 0 ? left_ : right_).coupling(pair.cw, pair.ccw), 2.0 * std::sqrt(pair.cw * pair.ccw)};
@@ -82,6 +89,15 @@ Followed LaserBeats::live(const Stretch& s, double slant) {
 
 Followed LaserBeats::plateau(const Stretch& stretch) { return live(stretch, 0.0); }
 Followed LaserBeats::edge(const Stretch& stretch) { return live(stretch, 1.0); }
+
+void LaserBeats::diffuse(double duration_s, double left_deviate, double right_deviate) {
+    const auto kick = [&](const WavePair& pair, double deviate) {
+        if (!(std::min(pair.cw, pair.ccw) > min_light_)) return 0.0;
+        const double per_light = 0.25 * usual_amplitude_ * (1.0 / pair.cw + 1.0 / pair.ccw);
+        return walk_turns_ * std::sqrt(duration_s * per_light) * deviate;
+    };
+    if (walk_turns_ > 0.0) beats_.kick(kick(end_light_.left, left_deviate), kick(end_light_.right, right_deviate));
+}
 
 Signals LaserBeats::signals() const {
     const Signals z = beats_.signals();

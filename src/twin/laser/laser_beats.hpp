@@ -21,6 +21,8 @@ struct Stretch {
     StartMiddleEnd field_g{};
     double duration_s = 0.0;
     double common_hz = 0.0;    // drive of both helicities: rotation and the drift that no field makes
+    double pulled_hz = 0.0;    // what the gas takes from the rotation of an undetuned beat, added to common_hz
+    double rotation_g = 0.0;   // field that shifts the lines of a left mode as rotation shifts its waves, negative
     double helicity_hz = 0.0;  // drive times helicity: the drift that a constant field makes
     double cw_part = 1.0;      // what faults leave of the light
     double ccw_part = 1.0;
@@ -42,6 +44,11 @@ public:
     // The field goes through a part of a reversal: each beat's drive is a chord with the right mean.
     Followed edge(const Stretch& stretch);
 
+    // What spontaneous emission has done to the phases of the lit beats within a time, of the light as it is now.
+    //
+    // deviate  of the left and the right beat: zero mean, unit variance.
+    void diffuse(double duration_s, double left_deviate, double right_deviate);
+
     [[nodiscard]] std::uint64_t latch() const;
     // Of the sum of the beats, over the amplitude of one at the centre.
     [[nodiscard]] Signals signals() const;
@@ -62,6 +69,7 @@ private:
     double threshold_;
     double min_light_;
     double usual_amplitude_;
+    double walk_turns_;
     bool counts_quarters_;
     OpticalBeats beats_;
 

@@ -75,8 +75,9 @@ void LaserGrid::fill(Half& half, double sign, const Gas& gas) const {
             // Not-a-number loses every comparison, so a set without a balance is never chosen.
             Balance balance;
             if (!balance_of(p.competition, set, balance)) balance.value.fill(std::numeric_limits<double>::quiet_NaN());
+            const FrameLight light = p.light(balance);
             half.grid[set].push_back({balance.value[0], balance.value[1], balance.value[2], balance.value[3],
-                                      p.near_bias_hz, p.far_bias_hz});
+                                      light.near_bias_hz, light.far_bias_hz});
         }
     }
 }
@@ -153,8 +154,7 @@ LaserGrid::Error LaserGrid::error(const Gas& gas) const {
     };
     const auto compare = [&](double sign, double detuning, double shift) {
         const GasPoint point = gas.at(sign * detuning, far_of(sign, detuning), shift);
-        const Balance balance = steady_state(point.competition);
-        const FrameLight exact = light_of(balance.lit, balance.value.data(), point.near_bias_hz, point.far_bias_hz);
+        const FrameLight exact = point.light(steady_state(point.competition));
         const FrameLight read = state(half_[sign < 0.0 ? 1 : 0], place(detuning, shift));
         for (std::size_t i = 0; i < n_waves; ++i) {
             grow(worst.intensity, read.intensity[i] - exact.intensity[i]);

@@ -97,6 +97,15 @@ void OpticalBeats::live_monotone(const Beat& left, const Beat& right, double dur
     }
 }
 
+void OpticalBeats::kick(double left_turns, double right_turns) {
+    const double beside_before = beside_larger();
+    left_.kick(left_turns);
+    right_.kick(right_turns);
+    winding_.add(left_amplitude_ >= right_amplitude_ ? left_turns : right_turns);
+    winding_.add(beside_larger() - beside_before);
+    follow(winding_);
+}
+
 // Run the decoder over the stretch. Between its exact ends a phase follows its drive: the pull of the backscatter
 // within the stretch is a hundredth of a turn, and nobody sees it in the garbage that is counted here.
 void OpticalBeats::sample_sum(const Beat& left, const Beat& right, const Turns& left_before, const Turns& right_before,

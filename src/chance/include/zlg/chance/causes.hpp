@@ -19,6 +19,7 @@ enum class Cause : std::uint16_t {
     fringe,
     fringe_jitter,
     leap,
+    quantum,
 
     // 0x0100..0x01ff: its faults
     faults = 0x0100,

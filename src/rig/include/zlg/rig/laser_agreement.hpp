@@ -20,9 +20,9 @@ struct LaserAgreement {
 // contradicts it, the processor is a wrongly calibrated one: nothing is taken, and each constant that is off is named.
 // A slope that is given without points is the whole law of the discriminator.
 //
-// The scale is that of a square ring. A given one contradicts it below 0.78 of that, which no plane ring of this
-// perimeter has, and above 1.31, a triangle. The random walk is that of lock-in; a given one contradicts nothing, for a
-// gyro may have more reasons to walk.
+// The scale is that of a square ring. A given one contradicts it below 0.78 of that, which
+// no plane ring of this perimeter has, and above 1.31, a triangle. The random walk is that of lock-in and quantum
+// noise; a given one contradicts nothing, for a gyro may have more reasons to walk.
 //
 // Of a gyro of fidelity averaged, whose discriminator is linear and whose bias is largest where the loop settles,
 // nothing is taken; points in [perimeter] that read such a discriminator wrongly are named, and so is a centre that is

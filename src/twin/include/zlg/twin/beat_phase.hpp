@@ -47,6 +47,9 @@ public:
 
     [[nodiscard]] const Turns& value() const { return psi_; }
 
+    // Moved at once.
+    void kick(double turns) { psi_.add(turns); }
+
     // Constant drive, in closed form: beating (|f| > |C|), locked (|f| < |C|) and between.
     //
     // errors  std::overflow_error where |drive_hz duration_s| is not below 1e18.

@@ -10,6 +10,8 @@
 //   dI_i/dt ~ I_i (G g_i - mu - G sum_j theta_ij I_j)
 //   pulling_i = -FSR/(2 pi) G/2 sum_k f_k int W gamma (nu_i - nu_k - z_i - s_i v) / (gamma^2 + (...)^2)
 //
+// With saturated dispersion the last integral holds the holes as the gain does, 1 - sum_j p_ij I_j L_jk as a factor.
+//
 // The matrix theta is a Gram matrix times, element by element, a matrix p that is positive semidefinite for p_ij in
 // 0..1. So the intensities climb a concave hill: one stable state, reached from any start, continuous in detuning and
 // field, without hysteresis.
@@ -62,9 +64,8 @@ public:
 
     // perimeter_lambda  in wavelengths; left modes are centred at whole ones, right modes between. Within +-1e6.
     // field_g           along the cw direction, finite; positive raises the left cw line by the Zeeman shift.
-    // accuracy          integrals to 1e-12. The pulling is that of the unsaturated gas. Of waves that burn the very
-    // same
-    //                   hole (one isotope, coupling 1, no field, zero detuning) which one lives is arbitrary.
+    // accuracy          integrals to 1e-12. Of waves that burn the very same hole (one isotope, coupling 1, no field,
+    //                   zero detuning) which one lives is arbitrary.
     // cost              about 1.1 us.
     [[nodiscard]] LaserLight at(double perimeter_lambda, double field_g) const;
 

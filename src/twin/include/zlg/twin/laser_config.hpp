@@ -8,6 +8,9 @@ enum class Quadrature { x1, x4 };
 
 [[nodiscard]] constexpr int counts_per_turn(Quadrature quadrature) { return quadrature == Quadrature::x4 ? 4 : 1; }
 
+// The frequencies that the gas pulls a wave by: of the gas without light, or with the holes that the waves burn.
+enum class Dispersion { unsaturated, saturated };
+
 // Neon of two isotopes at 632.8 nm in a non-planar ring, whose modes of opposite helicity lie half a free spectral
 // range apart. Each default is that of a gyro with a perimeter of 16 cm.
 struct LaserConfig {
@@ -24,7 +27,11 @@ struct LaserConfig {
     // Cross-saturation of waves on opposite components; same component: 1. Up to 1 the waves have one steady state;
     // above, which of several would depend on the past.
     double opposite_sigma_coupling = 0.6;
+    Dispersion dispersion = Dispersion::unsaturated;
     double bias_field_g = 15.0;  // plateau of the square bias; its sign alternates
+
+    // Light that either beam loses in all, at zero detuning and field; 0: no quantum noise.
+    double beam_power_w = 0.0;
 
     double lock_in_left_hz = 150.0;  // beat frequency below which equal waves lock, of either helicity
     double lock_in_right_hz = 150.0;
@@ -35,7 +42,18 @@ struct LaserConfig {
     Quadrature quadrature = Quadrature::x1;
 };
 
-// Refuse members that do not make a gas: lines that no table can hold, and gain for more than two neighbouring modes.
+// Less would blur a turn within a half.
+inline constexpr double min_beam_power_w = 1e-12;
+
+// Random walk of the beat by the spontaneous emission of both beams, in turns over the root of a second; 0 without.
+//
+//   FSR mu/(2 pi) sqrt(h nu/P)
+//
+// source  A. L. Schawlow, C. H. Townes, Phys. Rev. 112 (1958) 1940: a beam's line is pi h nu (FSR mu/(2 pi))^2/P wide
+//         above threshold and its phase spreads by 2 pi times that in a second.
+[[nodiscard]] double quantum_walk_turns(const LaserConfig& config);
+
+// Refuse members that do not make a gas: lines that no table can hold, and gain that lets a third mode lase.
 // Each member for itself is within the range of its key.
 //
 // errors  std::invalid_argument: the key that the member has in a configuration, value, allowed.

@@ -34,6 +34,9 @@ public:
     // cost  that of `BeatPhase::advance` for each lit beat and about 0.1 us; nearly equal beats 30 ns per 1/16 turn.
     void advance(const Beat& left, const Beat& right, double duration_s);
 
+    // Both phases are moved at once.
+    void kick(double left_turns, double right_turns);
+
     // The counter as latched now, free-running: quarters of a turn, or whole turns.
     [[nodiscard]] std::uint64_t latch_quarters() const;
     [[nodiscard]] std::uint64_t latch_turns() const;
