@@ -48,6 +48,10 @@ public:
 
     // The angle, and its error where the truth is known.
     void finish(std::vector<study::AxisRecord>& axes) {
+        if (std::string line = logs::spikes(axis_.rates_arcsec_s, "its rates"); !line.empty()) {
+            axis_.warnings.push_back(std::move(line));
+            note_all(axis_.group, axis_.warnings);
+        }
         if (truth_.size() == axis_.rates_arcsec_s.size() && !truth_.empty()) {
             study::AxisRecord error = axis_;
             error.name += ", error";
@@ -134,9 +138,19 @@ study::TableResult table_test(const config::Analysis& a, const study::AxisRecord
     const calibration::RateTableOptions options{.settling_samples = static_cast<std::int64_t>(settling),
                                                 .earth_arcsec_s = a.table_earth_arcsec_s};
     try {
-        return {.name = axis.name,
-                .holds = axis.holds,
-                .table = calibration::rate_table(table_rates, axis.rates_arcsec_s, options)};
+        study::TableResult result{.name = axis.name,
+                                  .holds = axis.holds,
+                                  .table = calibration::rate_table(table_rates, axis.rates_arcsec_s, options)};
+        if (!axis.temperature_c.empty())
+            result.temperature = noise::bias_temperature({.rates_arcsec_s = axis.rates_arcsec_s,
+                                                          .temperature_c = axis.temperature_c,
+                                                          .input_arcsec_s = table_rates});
+        result.warnings = axis.warnings;
+        for (const std::size_t k : result.table.far)
+            result.warnings.push_back(
+                fmt::format("{}: stage {} of {}, at {:.6g} arcsec/s, is far off the line through the others", axis.name,
+                            k + 1, result.table.stages.size(), result.table.stages[k].input_arcsec_s));
+        return result;
     } catch (const deviations::SeriesError& error) {
         throw deviations::SeriesError{fmt::format("{}: {}", axis.name, error.what())};
     }
@@ -159,12 +173,12 @@ config::Config read_mapped(const Options& options, const std::string& path, cons
         axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
         axis.phase_arcsec = std::move(from.phase_arcsec);
         axis.mode = std::move(from.mode);
+        axis.temperature_c = imported.temperature_c;
         axis.warnings = std::move(from.warnings);
-        note_all(path, axis.warnings);
-        if (imported.table_rates_arcsec_s.empty())
-            input.axes.push_back(std::move(axis));
-        else
-            input.tables.push_back(table_test(config.analysis, axis, imported.table_rates_arcsec_s));
+        const bool is_turned = !imported.table_rates_arcsec_s.empty();
+        if (is_turned) input.tables.push_back(table_test(config.analysis, axis, imported.table_rates_arcsec_s));
+        note_all(path, is_turned ? input.tables.back().warnings : axis.warnings);
+        if (!is_turned) input.axes.push_back(std::move(axis));
     }
     return config;
 }

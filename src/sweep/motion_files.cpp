@@ -13,10 +13,9 @@
 
 #include <fmt/format.h>
 
+#include <zlg/logs/content_hash.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/text/inputs.hpp>
-
-#include "content_hash.hpp"
 
 namespace zlg::sweep {
 namespace {
@@ -31,7 +30,7 @@ std::string checksum(const std::string& path) {
     };
     std::ifstream in{path, std::ios::binary};
     if (!in) fail();
-    ContentHash hash;
+    logs::ContentHash hash;
     std::vector<char> block(std::size_t{1} << 16);
     while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
         hash.add({block.data(), static_cast<std::size_t>(in.gcount())});

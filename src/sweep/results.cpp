@@ -9,11 +9,10 @@
 #include <fmt/format.h>
 
 #include <zlg/logs/column_file.hpp>
+#include <zlg/logs/content_hash.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/sweep/metrics.hpp>
 #include <zlg/sweep/row_text.hpp>
-
-#include "content_hash.hpp"
 
 namespace zlg::sweep {
 namespace {
@@ -72,7 +71,7 @@ struct Damage {
 // Of the description, and of each row as its line of text: the first 52 bits of the hash, which any program holds as a
 // number.
 std::int64_t checksum_of(const std::string& description, const Rows& rows) {
-    ContentHash hash;
+    logs::ContentHash hash;
     hash.add(description);
     for (const auto& [gyro, row] : rows) hash.add(fields_of(row));
     return static_cast<std::int64_t>(hash.value() >> 12);
