@@ -23,6 +23,13 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
+// The angle, and its error where the truth is known; what may be no measurement is said.
+void finish(study::TickRates& ticks, std::vector<study::AxisRecord>& axes) {
+    const std::size_t first = axes.size();
+    ticks.finish(axes);
+    note_all(axes[first].group, axes[first].warnings);
+}
+
 config::Config read_angles(const Options& options, const std::string& path, std::vector<study::AxisRecord>& axes) {
     logs::AngleReader reader{path};
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
@@ -41,7 +48,7 @@ config::Config read_angles(const Options& options, const std::string& path, std:
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", path));
     if (ticks.empty()) throw logs::FormatError{fmt::format("{}: holds no tick", path)};
     study::check_tick(path, config.gyro.tick_s, first_s, angle);
-    ticks.finish(axes);
+    finish(ticks, axes);
     return config;
 }
 
@@ -62,7 +69,7 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
     recorded::require_a_tick(replay, path);
     if (asked.lacks_detuning) warn_uncorrected(replay, path);
     for (const std::string& wrong : replay.contradictions(path)) complain("warning: " + wrong);
-    ticks.finish(axes);
+    finish(ticks, axes);
     return asked.config;
 }
 
@@ -75,9 +82,19 @@ study::TableResult table_test(const config::Analysis& a, const study::AxisRecord
     const calibration::RateTableOptions options{.settling_samples = static_cast<std::int64_t>(settling),
                                                 .earth_arcsec_s = a.table_earth_arcsec_s};
     try {
-        return {.name = axis.name,
-                .holds = axis.holds,
-                .table = calibration::rate_table(table_rates, axis.rates_arcsec_s, options)};
+        study::TableResult result{.name = axis.name,
+                                  .holds = axis.holds,
+                                  .table = calibration::rate_table(table_rates, axis.rates_arcsec_s, options)};
+        if (!axis.temperature_c.empty())
+            result.temperature = noise::bias_temperature({.rates_arcsec_s = axis.rates_arcsec_s,
+                                                          .temperature_c = axis.temperature_c,
+                                                          .input_arcsec_s = table_rates});
+        result.warnings = axis.warnings;
+        for (const std::size_t k : result.table.far)
+            result.warnings.push_back(
+                fmt::format("{}: stage {} of {}, at {:.6g} arcsec/s, is far off the line through the others", axis.name,
+                            k + 1, result.table.stages.size(), result.table.stages[k].input_arcsec_s));
+        return result;
     } catch (const deviations::SeriesError& error) {
         throw deviations::SeriesError{fmt::format("{}: {}", axis.name, error.what())};
     }
@@ -100,12 +117,12 @@ config::Config read_mapped(const Options& options, const std::string& path, cons
         axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
         axis.phase_arcsec = std::move(from.phase_arcsec);
         axis.mode = std::move(from.mode);
+        axis.temperature_c = imported.temperature_c;
         axis.warnings = std::move(from.warnings);
-        note_all(path, axis.warnings);
-        if (imported.table_rates_arcsec_s.empty())
-            input.axes.push_back(std::move(axis));
-        else
-            input.tables.push_back(table_test(config.analysis, axis, imported.table_rates_arcsec_s));
+        const bool is_turned = !imported.table_rates_arcsec_s.empty();
+        if (is_turned) input.tables.push_back(table_test(config.analysis, axis, imported.table_rates_arcsec_s));
+        note_all(path, is_turned ? input.tables.back().warnings : axis.warnings);
+        if (!is_turned) input.axes.push_back(std::move(axis));
     }
     return config;
 }

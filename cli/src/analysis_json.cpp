@@ -89,6 +89,7 @@ json axis_json(const AxisResult& axis) {
         readout["unit"] = "arcsec/s";
     }
     if (axis.modes) j["modes"] = modes_json(axis);
+    if (axis.temperature) j["temperature"] = fields_json(*axis.temperature);
     return j;
 }
 
@@ -96,6 +97,8 @@ json table_json(const study::TableResult& test) {
     json j = fields_json(test.table, {{"scale_factor", "scale_factor_units_arcsec"}});
     j["name"] = test.name;
     j["holds"] = test.holds;
+    j["warnings"] = test.warnings;
+    if (test.temperature) j["temperature"] = fields_json(*test.temperature);
     j["stages"] = fields_json(test.table.stages, {{"output", "output_units_s"}, {"n_samples", "samples"}});
     return j;
 }

@@ -21,6 +21,12 @@ using Renamed = std::initializer_list<std::pair<std::string_view, std::string_vi
     return {{"determined", true}, {"value", e.value}, {"sigma", e.sigma}};
 }
 
+[[nodiscard]] inline nlohmann::json value_json(const std::vector<numeric::Estimate>& all) {
+    nlohmann::json values = nlohmann::json::array();
+    for (const numeric::Estimate& e : all) values.push_back(value_json(e));
+    return values;
+}
+
 template <class Value>
 [[nodiscard]] nlohmann::json value_json(const Value& value) {
     return value;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
 
 #include "failure.hpp"
@@ -37,6 +38,26 @@ logs::Mapping mapping_of(const Options& options) {
     return mapping;
 }
 
+namespace {
+
+// errors  UsageError: the head of a raw log of ours says otherwise.
+void check_against_head(const std::string& path, const logs::Mapping& mapping) {
+    logs::Settings head;
+    try {
+        head = logs::RawReader{path}.header().settings;
+    } catch (const logs::FormatError&) {
+        // It lacks a column of ours, which the mapping may say.
+    }
+    for (const auto& [key, value] : head)
+        for (const char* mapped : {"tick_s", "scale_arcsec"})
+            if (mapping.has(mapped) && key == fmt::format("gyro.{}", mapped) &&
+                mapping.real(mapped) != std::strtod(value.c_str(), nullptr))
+                throw UsageError{fmt::format("--map {} = {}: the head of {} says {}; allowed is to leave it out",
+                                             mapped, mapping.text(mapped), path, value)};
+}
+
+}  // namespace
+
 logs::ForeignLook look_at(const Options& options, const std::vector<std::string>& paths) {
     const logs::Mapping mapping = mapping_of(options);
     for (const std::string& path : paths) {
@@ -45,6 +66,7 @@ logs::ForeignLook look_at(const Options& options, const std::vector<std::string>
         if (is_angles(kind) || (is_raw(kind) && !is_mapped(options)))
             throw UsageError{fmt::format("{}: is {} log of zlg already, and needs no import", path,
                                          is_raw(kind) ? "a raw" : "an angle")};
+        if (is_raw(kind)) check_against_head(path, mapping);
     }
     return logs::look_at_foreign(paths, mapping);
 }
@@ -53,7 +75,7 @@ void note_all(const std::string& path, const std::vector<std::string>& notes) {
     for (const std::string& note : notes) complain(fmt::format("note: {}: {}", name_of_file(path), note));
 }
 
-logs::RawReader open_raw(const Options& options, const std::string& path) {
+logs::RawReader open_raw(const Options& options, const std::string& path, std::size_t* n_warnings) {
     // A pipe can be read once: it is a log of zlg.
     const bool can_be_looked_at = std::filesystem::is_regular_file(path);
     if (!is_mapped(options) && (!can_be_looked_at || logs::recognise(path) != logs::LogKind::unknown))
@@ -69,6 +91,7 @@ logs::RawReader open_raw(const Options& options, const std::string& path) {
     note_all(path, look.said);
     note_all(path, made.notes);
     note_all(path, made.warnings);
+    if (n_warnings != nullptr) *n_warnings = made.warnings.size();
     return {path, std::move(made.header), std::move(made.rows)};
 }
 

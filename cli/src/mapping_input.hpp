@@ -31,9 +31,11 @@ void note_all(const std::string& path, const std::vector<std::string>& notes);
 
 // A raw log, or the halves of a foreign file, with a line on standard error for each thing that was understood.
 //
+// n_warnings  becomes how many lines say what may be no measurement.
 // errors  those of logs::RawReader, logs::look_at_foreign and logs::imported_raw; UsageError: the file is a log and
 // needs no mapping.
-[[nodiscard]] logs::RawReader open_raw(const Options& options, const std::string& path);
+[[nodiscard]] logs::RawReader open_raw(const Options& options, const std::string& path,
+                                       std::size_t* n_warnings = nullptr);
 
 // What a foreign file, or files of one record, say of themselves. errors  UsageError: one is a log of ours.
 [[nodiscard]] logs::ForeignLook look_at(const Options& options, const std::vector<std::string>& paths);

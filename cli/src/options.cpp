@@ -1,10 +1,14 @@
 #include "options.hpp"
 
 #include <filesystem>
+#include <fstream>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <zlg/config/log_settings.hpp>
+#include <zlg/logs/content_hash.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>
@@ -24,6 +28,28 @@ void apply_options(config::Config& config, const Options& options) {
 }
 
 }  // namespace
+
+std::string typed_command() {
+    std::ifstream file{"/proc/self/cmdline"};
+    std::string command = "zlg", word;
+    std::getline(file, word, '\0');
+    while (std::getline(file, word, '\0')) {
+        constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+        const bool is_plain = !word.empty() && word.find_first_not_of(plain) == std::string::npos;
+        for (std::size_t at = word.find('\''); at != std::string::npos; at = word.find('\'', at + 4))
+            word.replace(at, 1, "'\\''");
+        command += is_plain ? " " + word : fmt::format(" '{}'", word);
+    }
+    return command;
+}
+
+// Of a pipe nothing is known after it was read.
+std::string file_facts(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return path;
+    return fmt::format("{}: {} bytes, last changed {:%Y-%m-%dT%H:%M:%S}Z, XXH64 {:016x}", path, status.st_size,
+                       fmt::gmtime(status.st_mtime), logs::hash_of_file(path));
+}
 
 CLI::Validator is_a_name() {
     return {[](const std::string& name) {

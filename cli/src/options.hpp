@@ -100,6 +100,12 @@ struct Output {
 };
 void write_all(const std::vector<Output>& outputs, bool force);
 
+// As it was typed, for a shell.
+[[nodiscard]] std::string typed_command();
+
+// "w.csv: 192 bytes, last changed 2026-11-28T09:30:00Z, XXH64 44bc2cf5ad770999". errors  logs::IoError.
+[[nodiscard]] std::string file_facts(const std::string& path);
+
 // errors  logs::IoError.
 void write_file(const std::string& path, const std::string& text, bool force);
 

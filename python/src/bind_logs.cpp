@@ -92,6 +92,8 @@ py::dict read_foreign(const std::string& path, const std::vector<std::pair<std::
             raw = logs::imported_raw(look);
         else
             imported = logs::imported_axes(look);
+        if (!imported.temperature_c.empty())
+            throw logs::MappingError{"temperature_c: is read by `zlg analyze` alone; allowed is to leave it out"};
     }
     std::vector<std::string> notes = look.table.notes;
     for (const auto* some : {&look.said, &raw.notes, &raw.warnings, &imported.notes})

@@ -70,6 +70,12 @@ struct Line {
     double slope = 0.0, offset = 0.0;
     double slope_variance = 0.0, offset_variance = 0.0, covariance = 0.0;
     double dof = 0.0;
+    double variance = 0.0;  // of a stage about it
+
+    [[nodiscard]] double at(double input) const { return slope * input + offset; }
+    [[nodiscard]] double variance_at(double input) const {
+        return offset_variance + input * (2.0 * covariance + input * slope_variance) + variance;
+    }
 };
 
 // Least squares, all stages alike; the error from what is left, or, with less than three degrees of freedom, from the
@@ -105,14 +111,15 @@ std::optional<Line> line_of(const std::vector<TableStage>& stages, const std::fu
                 .slope_variance = covariance(0, 0) / (largest * largest),
                 .offset_variance = covariance(1, 1),
                 .covariance = covariance(0, 1) / largest,
-                .dof = few ? many : dof};
+                .dof = few ? many : dof,
+                .variance = variance};
 }
 
 void take_residuals(const Line& line, double same_rate_ratio, RateTable& table) {
     double largest = 0.0, squares = 0.0;
     for (const TableStage& s : table.stages) largest = std::max(largest, std::abs(s.input_arcsec_s));
     for (TableStage& s : table.stages) {
-        s.residual_ppm = 1e6 * (s.output - line.slope * s.input_arcsec_s - line.offset) / (line.slope * largest);
+        s.residual_ppm = 1e6 * (s.output - line.at(s.input_arcsec_s)) / (line.slope * largest);
         squares += s.residual_ppm * s.residual_ppm;
         table.largest_residual_ppm = std::max(table.largest_residual_ppm, std::abs(s.residual_ppm));
     }
@@ -124,6 +131,19 @@ void take_residuals(const Line& line, double same_rate_ratio, RateTable& table) 
             const double apart = (a.output - b.output) / line.slope - (a.input_arcsec_s - b.input_arcsec_s);
             table.hysteresis_arcsec_s = std::max(table.hysteresis_arcsec_s, std::abs(apart));
         }
+}
+
+void take_far(RateTable& table) {
+    constexpr double errors = 8.0;
+    for (std::size_t k = 0; k < table.stages.size(); ++k) {
+        std::vector<TableStage> others = table.stages;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+        const auto line = line_of(others, [](double) { return true; });
+        if (!line || line->dof >= many) continue;
+        const TableStage& s = table.stages[k];
+        const double variance = line->variance_at(s.input_arcsec_s) + s.output_sigma * s.output_sigma;
+        if (std::abs(s.output - line->at(s.input_arcsec_s)) > errors * std::sqrt(variance)) table.far.push_back(k);
+    }
 }
 
 numeric::Estimate asymmetry_of(const std::vector<TableStage>& stages, double slope) {
@@ -161,6 +181,7 @@ RateTable rate_table(std::span<const double> input, std::span<const double> outp
     table.bias_arcsec_s = numeric::estimated(d, numeric::widened(std::sqrt(std::max(0.0, variance)), line->dof));
     table.asymmetry_ppm = asymmetry_of(table.stages, line->slope);
     take_residuals(*line, options.same_rate_ratio, table);
+    take_far(table);
     return table;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <zlg/deviations/noise_identification.hpp>
+#include <zlg/numeric/parallel.hpp>
 
 #include "deviation_points.hpp"
 #include "sums/difference_sums.hpp"
@@ -32,8 +33,11 @@ std::vector<TermSum> all_sums(const RecordView& view, DeviationKind kind, std::s
     if (kind == DeviationKind::oadev || kind == DeviationKind::ohdev)
         return difference_sums(view, difference_order(kind), factors, threads);
     if (kind == DeviationKind::mdev || kind == DeviationKind::tdev) return averaged_sums(view, factors, threads);
-    std::vector<TermSum> sums;
-    for (const auto m : factors) sums.push_back(single_sum(view, kind, m, threads));
+    // Pieces that are mirrored have threads of their own.
+    const bool is_of_pieces = kind == DeviationKind::mtotdev || kind == DeviationKind::htotdev;
+    std::vector<TermSum> sums(factors.size());
+    numeric::in_parallel(sums.size(), is_of_pieces ? 1 : threads,
+                         [&](std::size_t k) { sums[k] = single_sum(view, kind, factors[k], threads); });
     return sums;
 }
 

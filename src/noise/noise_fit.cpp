@@ -27,6 +27,7 @@ constexpr std::int64_t min_intervals = 64;
 // few for a weight.
 constexpr std::int64_t min_lengths = 6;
 constexpr double ramp_chance = 0.002;   // of a ramp in noise alone: one record of 500, as of a line of the spectrum
+constexpr double most_missing = 0.05;   // of the samples, where the fit is that of a whole record
 constexpr double one_sided_95 = 1.645;  // quantile of the normal law
 
 // read_at_s is where the Allan deviation of the term alone has the value of its coefficient: the tau at which its
@@ -45,21 +46,69 @@ constexpr std::array<KindFacts, 7> kinds{{{"quantisation", "arcsec", std::number
 
 const KindFacts& facts(NoiseKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
-HadamardPoints hadamard_points(std::span<const double> rates, double rate_hz, const NoiseFitOptions& options) {
+// Of a counter that hardly counts what one count is worth as a rate: all rates lie on a few steps of one size, and the
+// turn of one sample is near a whole number of them, so that its rounding goes on from sample to sample as the turn
+// does, and is no noise of single angles. 0: it is none.
+double coarse_step(std::span<const double> rates) {
+    constexpr double most_steps = 8.0, near = 0.05;
+    double first = FittedTerm::none, step = std::numeric_limits<double>::infinity(), low = 0.0, high = 0.0;
+    double mean = 0.0, n = 0.0;
+    for (const double rate : rates) {
+        if (!std::isfinite(rate)) continue;
+        if (std::isnan(first)) first = rate;
+        const double above = rate - first;
+        if (above != 0.0) step = std::min(step, std::abs(above));
+        low = std::min(low, above);
+        high = std::max(high, above);
+        if (high - low > most_steps * step) return 0.0;
+        n += 1.0;
+        mean += (rate - mean) / n;
+    }
+    const auto part = [step](double rate) { return std::abs(rate / step - std::round(rate / step)); };
+    const auto is_step = [&](double rate) { return !std::isfinite(rate) || part(rate - first) < 1e-3; };
+    return std::ranges::all_of(rates, is_step) && part(first) < 1e-3 && part(mean) < near ? step : 0.0;
+}
+
+// Where samples are missing all over, few long means are known but for a tenth: those of which less is known count
+// there.
+deviations::DeviationCurve hadamard_curve(const deviations::AngleRecord& record, double missing_ratio,
+                                          const NoiseFitOptions& options) {
+    const std::int64_t n = record.n_intervals();
+    const auto curve_of = [&](double least_known_ratio) {
+        return deviation(record, deviations::DeviationKind::ohdev,
+                         deviations::octave_factors(std::max<std::int64_t>(1, n / min_lengths)),
+                         {.least_known_ratio = least_known_ratio, .noise = 0, .threads = options.threads});
+    };
+    const auto curve = curve_of(options.least_known_ratio);
+    if (missing_ratio <= most_missing) return curve;
+    auto wide = curve_of(std::max(0.1, 1.0 - 2.0 * missing_ratio));
+    constexpr std::int64_t fewest = 100;  // of the differences one in so many
+    for (deviations::DeviationPoint& point : wide.points)
+        for (const deviations::DeviationPoint& known : curve.points)
+            if (known.m == point.m && fewest * known.terms > n - 3 * known.m) point = known;
+    return wide;
+}
+
+// step  of a counter that hardly counts, 0: it is none.
+HadamardPoints hadamard_points(std::span<const double> rates, double rate_hz, double step,
+                               const NoiseFitOptions& options) {
     const deviations::AngleRecord record(
         {.what = {deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, .values = rates});
     const std::int64_t n = record.n_intervals();
-    const auto curve =
-        deviation(record, deviations::DeviationKind::ohdev,
-                  deviations::octave_factors(std::max<std::int64_t>(1, n / min_lengths)),
-                  {.least_known_ratio = options.least_known_ratio, .noise = 0, .threads = options.threads});
+    const double missing_ratio = 1.0 - static_cast<double>(record.n_known()) / static_cast<double>(record.n_samples());
+    // What rounding may add to a variance, whose four angles it shifts by up to a count, is a small part of it.
+    constexpr double small_part = 0.1, most_rounding = 0.6;
+    const double rounding = most_rounding / small_part * std::pow(step / rate_hz, 2);
+    const auto curve = hadamard_curve(record, missing_ratio, options);
     HadamardPoints points{.tau_0_s = 1.0 / rate_hz, .n_intervals = n};
     for (std::size_t k = 1; k < rates.size(); ++k)
         if (std::isfinite(rates[k - 1]) && !std::isfinite(rates[k]))
             points.gap_rate_hz += rate_hz / static_cast<double>(rates.size());
+    // A mean is that of what is known of its time.
+    if (missing_ratio > most_missing) points.gap_rate_hz /= 1.0 - missing_ratio;
     std::vector<double> value, tau, scarcity;
     for (const deviations::DeviationPoint& p : curve.points) {
-        if (!(p.deviation > 0.0)) continue;
+        if (!(p.deviation > 0.0) || p.deviation * p.deviation * p.tau_s * p.tau_s < rounding) continue;
         points.m.push_back(p.m);
         tau.push_back(p.tau_s);
         value.push_back(p.deviation * p.deviation);
@@ -67,7 +116,8 @@ HadamardPoints hadamard_points(std::span<const double> rates, double rate_hz, co
     }
     if (points.m.size() < 4)
         throw deviations::SeriesError(
-            fmt::format("fit: {} averaging times of which variances are known, 4 or more are needed", points.m.size()));
+            fmt::format("fit: {} averaging times of which variances are known{}, 4 or more are needed", points.m.size(),
+                        rounding > 0.0 ? ", and more than what the rounding to whole counts may leave" : ""));
     const auto as_vector = [](const std::vector<double>& v) {
         return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(v.data(), std::ssize(v)));
     };
@@ -177,6 +227,31 @@ SmoothFit select(const HadamardPoints& points, bool with_markov, NoiseFit& fit) 
     return smooth;
 }
 
+// The mean fourth power of what rates differ from their mean by, of the square of the mean square: 3 of normal noise.
+double kurtosis(std::span<const double> rates) {
+    double n = 0.0, mean = 0.0, squares = 0.0, fourths = 0.0;
+    for (const double rate : rates)
+        if (std::isfinite(rate)) n += 1.0, mean += (rate - mean) / n;
+    for (const double rate : rates) {
+        if (!std::isfinite(rate)) continue;
+        const double square = (rate - mean) * (rate - mean);
+        squares += square;
+        fourths += square * square;
+    }
+    return n * fourths / (squares * squares);
+}
+
+// Noise of single angles is most at the shortest averaging time. Where less was measured there, and not because a
+// counter counts seldom, what was found of it is what a low pass leaves of other noise.
+void leave_filter(std::span<const double> rates, const HadamardPoints& points, SmoothFit& smooth) {
+    if (!smooth.found[quantised_index] || smooth.skipped == 0) return;
+    const double quantised =
+        hadamard_variance({.quantisation_arcsec = std::sqrt(smooth.square[quantised_index])}, points.tau_s[0]);
+    if (points.value[0] > 0.5 * quantised || kurtosis(rates) > 4.0) return;
+    smooth.found[quantised_index] = false;
+    smooth.square[quantised_index] = smooth.mean_square[quantised_index] = smooth.square_sigma[quantised_index] = 0.0;
+}
+
 // Terms that do not describe the record give no limit of one that is not among them.
 void widen(NoiseFit& fit) {
     if (fit.describes) return;
@@ -226,9 +301,14 @@ NoiseFit fit_noise_in_place(std::span<double> rates, double rate_hz, const Noise
         deviations::Series{.what = {deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, .values = rates});
     check_known(rates);
     NoiseFit fit;
-    const auto sines = take_out_sinusoids(rates, rate_hz, options.most_sines, options.threads);
-    const HadamardPoints points = hadamard_points(rates, rate_hz, options);
-    const SmoothFit smooth = select(points, options.markov, fit);
+    const double step = coarse_step(rates);
+    auto sines = take_out_sinusoids(rates, rate_hz, options.most_sines, options.threads);
+    const HadamardPoints points = hadamard_points(rates, rate_hz, step, options);
+    // A saw of a count's height has lines of 2 f counts.
+    std::erase_if(sines,
+                  [&](const Sinusoid& s) { return s.amplitude_arcsec_s < 2.2 * s.frequency_hz * step / rate_hz; });
+    SmoothFit smooth = select(points, options.markov, fit);
+    leave_filter(rates, points, smooth);
     fit.terms = terms_of(smooth.square, smooth.markov_time_s, smooth.filter_time_s);
     for (std::size_t index = 0; index < markov_index; ++index) fit.fitted.push_back(smooth_term(smooth, index));
     fit.fitted.push_back(ramp_term(rates, rate_hz, smooth));

@@ -105,6 +105,24 @@ report::Table mode_table(const View& v) {
     return t;
 }
 
+report::Table temperature_table(const noise::BiasTemperature& found) {
+    report::Table t{
+        .caption = fmt::format("What follows the temperature, {:.4g} to {:.4g} C, about its mean, {:.6g} C{}.",
+                               found.least_c, found.most_c, found.mean_c,
+                               found.order > 0 ? "; taken out before the terms are fitted" : ": nothing"),
+        .header = {"quantity", "value"}};
+    const auto add = [&t](const char* what, const std::vector<numeric::Estimate>& all, const char* unit) {
+        for (std::size_t k = 0; k < all.size(); ++k)
+            t.rows.push_back({k == 0 ? fmt::format("{} at the mean temperature", what)
+                                     : fmt::format("its change by the temperature, order {}", k),
+                              value_text(all[k], k == 0 ? unit : fmt::format("{}/C^{}", unit, k))});
+    };
+    add("bias", found.bias, "deg/h");
+    add("scale factor", found.scale, "deg/deg");
+    t.rows.push_back({"hysteresis, warming less cooling", value_text(found.hysteresis_arcsec_s, "deg/h")});
+    return t;
+}
+
 std::string summary(const View& v) {
     return fmt::format(
         "{}, {:g} Hz: {} samples, {} s, {} known, {} gaps; mean rate {} {}.", v.axis.holds, v.axis.rate_hz,
@@ -132,6 +150,7 @@ report::Section section_of(const View& v) {
         s.tables.push_back(term_table(v));
     else
         s.paragraphs.push_back("No terms are fitted: " + v.axis.no_fit + ".");
+    if (v.axis.temperature) s.tables.push_back(temperature_table(*v.axis.temperature));
     if (can_be_drawn(v.axis.curves.front())) s.figures.push_back(sigma_figure(v));
     s.figures.push_back(course_figure(v));
     if (!v.axis.spectrum.density.empty()) {
@@ -181,6 +200,7 @@ report::Section earth_section(const AnalysisResult& result) {
 report::Section table_section(const config::Analysis& config, const TableResult& test, std::size_t index) {
     const calibration::RateTable& r = test.table;
     report::Section s{.heading = test.name, .paragraphs = {test.holds + "."}};
+    for (const std::string& warning : test.warnings) s.paragraphs.push_back(warning + ".");
     s.tables.push_back(
         {.caption = "Straight line through all stages by least squares, as IEEE Std 647 has it.",
          .header = {"quantity", "value"},
@@ -191,6 +211,7 @@ report::Section table_section(const config::Analysis& config, const TableResult&
                   {"nonlinearity, rms", short_number(r.nonlinearity_ppm) + " ppm"},
                   {"largest residual", short_number(r.largest_residual_ppm) + " ppm"},
                   {"largest difference at one input", short_number(r.hysteresis_arcsec_s) + " deg/h"}}});
+    if (test.temperature) s.tables.push_back(temperature_table(*test.temperature));
     report::Table stages{
         .caption = "Stages; residuals in ppm of the output at the largest input.",
         .header = {"input, " + shown_unit(config.unit), "output, units/s", "its sigma", "samples", "residual, ppm"}};
@@ -243,7 +264,7 @@ report::Page analysis_page(const config::Analysis& config, const AnalysisResult&
     if (!result.axes.empty()) page.sections.push_back(earth_section(result));
     config::Config asked;
     asked.analysis = config;
-    page.sections.push_back(how_made("analyze FILE...", asked, names));
+    page.sections.push_back(result.made ? *result.made : how_made("analyze FILE...", asked, names));
     return page;
 }
 

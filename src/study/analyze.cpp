@@ -147,6 +147,16 @@ double mean_of(std::span<const double> rates) {
     return mean;
 }
 
+void take_temperature(AxisRecord& record, AxisResult& axis) {
+    if (record.temperature_c.empty()) return;
+    std::vector<double>& rates = record.rates_arcsec_s;
+    axis.temperature = noise::bias_temperature({.rates_arcsec_s = rates, .temperature_c = record.temperature_c});
+    // Where only the temperature is not known the rate is as at its mean.
+    for (std::size_t k = 0; k < rates.size(); ++k)
+        if (std::isfinite(record.temperature_c[k]))
+            rates[k] -= axis.temperature->drift_arcsec_s(record.temperature_c[k]);
+}
+
 // Takes out of the rates what is no noise, and the sinusoids out of the mean: over gaps and parts of a period they
 // would leave much more there than its error says.
 void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
@@ -191,6 +201,7 @@ AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
     take_modes(task, record, axis);
     take_curves(task, record, axis);
     if (task.with_page) take_spectra(record, axis);
+    take_temperature(record, axis);
     take_fit(task, record, axis);
     axis.mean_sigma_arcsec_s = sigma_of_mean(axis);
     axis.readouts = readouts_of(axis);

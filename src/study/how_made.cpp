@@ -37,4 +37,17 @@ report::Section how_made(std::string_view command, const config::Config& config,
             .is_of_page = true};
 }
 
+report::Section how_made(std::string_view command, const std::vector<std::string>& files, std::string_view mapping,
+                         const config::Config& config) {
+    std::string code = fmt::format("{}\n", command);
+    for (const std::string& file : files) code += fmt::format("# {}\n", file);
+    if (!mapping.empty()) code += fmt::format("\n# what the mapping says\n{}", mapping);
+    if (const std::string own = own_settings(config); !own.empty())
+        code += fmt::format("\n# settings that are not the defaults, those of the log among them\n{}", own);
+    return {.heading = "How this page was made",
+            .paragraphs = {fmt::format("zlg {}, by this command, of these files.", ZLG_VERSION)},
+            .code = std::move(code),
+            .is_of_page = true};
+}
+
 }  // namespace zlg::study

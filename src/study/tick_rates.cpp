@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <zlg/logs/error.hpp>
+#include <zlg/logs/imported.hpp>
 
 namespace zlg::study {
 namespace {
@@ -33,6 +34,8 @@ void TickRates::take(const core::AngleRow& row, double truth_arcsec) {
 }
 
 void TickRates::finish(std::vector<AxisRecord>& axes) {
+    if (std::string line = logs::spikes(axis_.rates_arcsec_s, "its rates"); !line.empty())
+        axis_.warnings.push_back(std::move(line));
     if (truth_.size() != axis_.rates_arcsec_s.size() || truth_.empty()) {
         axes.push_back(std::move(axis_));
         return;

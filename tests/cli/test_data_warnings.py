@@ -3,6 +3,7 @@
 import json
 import unittest
 
+import h5py
 import numpy
 
 from foreign import Foreign
@@ -257,6 +258,50 @@ class NoMeasurements(ForeignCase):
         other = self.table("t.csv", "t_s,w_dps", t, self.w(len(t)))
         self.refuse(3, "analyze", other, says=("row 3", "other values", "time=none"))
 
+    def test_rows_that_jump_away_and_back(self):
+        for marks in ([1e10], [65535], [-9998], [50.0, -60.0, 70.0]):
+            w = numpy.round(self.rng.normal(0, 0.02, 6000), 5)
+            w[numpy.arange(len(marks)) * 700 + 1000] = marks
+            w[4000:4020] = marks[0]
+            warnings, path = self.warnings(w)
+            self.assertIn(f"{20 + len(marks)} rows jump away", warnings[0])
+            self.assertIn("row 1001", warnings[0])
+        # Of a log of our own too, and not where it is turned from rate to rate.
+        out = self.folder / "own.csv"
+        self.succeed("import", path, "--map", "holds=rate", "--out", out)
+        self.assertEqual(run("analyze", out, "--strict").returncode, 1)
+        steps = numpy.round(numpy.repeat([0, 50, 0, -50, 0], 1200) + self.rng.normal(0, 0.02, 6000), 5)
+        self.assertEqual(self.warnings(steps)[0], [])
+
+    def test_a_stage_that_is_far_off_the_others(self):
+        table = numpy.repeat(numpy.arange(-8, 9) * 10.0, 100)
+        w = table + self.rng.normal(0, 0.01, len(table))
+        said = ["--map", "axis=w_dps", "--map", "table_rate=table_dps", "--map", "rate_hz=100"]
+        self.assertEqual(run("analyze", self.table("r.csv", "table_dps,w_dps", table, w), *said, "--strict").returncode, 0)
+        w[400:500] += 1.0
+        told = run("analyze", self.table("r.csv", "table_dps,w_dps", table, w), *said, "--strict")
+        self.assertEqual(told.returncode, 1)
+        self.assertIn("stage 5 of 17, at -144000 arcsec/s", told.stderr)
+
+    def test_what_follows_the_temperature_is_no_ramp_and_no_walk(self):
+        n = 20000
+        t = 25 + 10 * (1 - numpy.exp(-numpy.arange(n) / 4000))
+        w = 9.0 + 2.0 * (t - 25) + self.rng.normal(0, 0.5, n)
+        path = self.table("t.csv", "w_dph,temp_c", [f"{x:.5f}" for x in w], [f"{x:.4f}" for x in t])
+        said = ["--map", "rate_hz=1", "--map", "axis=w_dph"]
+        _, plain = self.mean(path, *said)
+        _, axis = self.mean(path, *said, "--map", "temperature_c=temp_c")
+        found = lambda one: {term["term"] for term in one["fit"]["terms"] if term["found"]}
+        self.assertTrue(found(plain) & {"ramp", "rate random walk", "bias instability"})
+        # What the error of the law leaves may be a ramp: of 20 deg/h over the record less than a hundredth.
+        self.assertEqual(found(axis) - {"ramp"}, {"angle random walk"})
+        ramp, = (term for term in axis["fit"]["terms"] if term["term"] == "ramp")
+        self.assertLess(abs(ramp["value"] or 0.0) * n, 0.2)
+        bias = axis["temperature"]["bias"]
+        self.assertLess(abs(bias[1]["value"] - 2.0), 4 * bias[1]["sigma"])
+        self.assertLess(bias[1]["sigma"], 0.01)
+        self.refuse(2, "import", path, *said, "--map", "temperature_c=temp_c", "--out", self.folder / "a.csv", says=("temperature_c",))
+
 
 class Heads(ForeignCase):
     def test_units_behind_a_stroke_or_a_point(self):
@@ -302,6 +347,51 @@ class Heads(ForeignCase):
         for k, word in ((10, "-1.#IND"), (11, "1.#QNAN"), (12, "-1.#IND00"), (13, "#DIV/0!")):
             w[k] = word
         self.assertEqual(self.counted(self.table("m.csv", "t_s,w_dph", numpy.arange(400) / 100, w)), (400, 396, 1))
+
+
+class Contradictions(ForeignCase):
+    def test_what_the_head_of_a_log_of_ours_says_stands(self):
+        log = self.folder / "raw.csv"
+        self.succeed("simulate", "--duration", "2", "--out", log)
+        self.refuse(2, "process", log, "--map", "scale_arcsec=7", "--out", self.folder / "a.csv", says=("scale_arcsec", "the head of"))
+
+    def test_two_units_of_a_data_set(self):
+        path = self.folder / "u.h5"
+        with h5py.File(path, "w") as file:
+            file["w"] = self.rates(600)
+            file["w"].attrs["unit"], file["w"].attrs["units"] = "deg/s", "rad/s"
+        self.refuse(2, "analyze", path, "--map", "rate_hz=100", says=("deg/s or rad/s", "unit="))
+
+    def test_the_day_and_the_month_in_files_of_one_record(self):
+        stamps = lambda day: [f"02/{day:02d}/2026 {s // 3600:02d}:{s // 60 % 60:02d}:{s % 60:02d}" for s in range(0, 86400, 10)]
+        for days in ((1, 2), (12, 13)):
+            paths = [self.table(f"d{day}.csv", "Time,w_dph", stamps(day), self.w(8640)) for day in days]
+            out = self.folder / "a.csv"
+            self.succeed("import", *paths, "--out", out, "--force")
+            self.assertEqual(self.mean(out)[1]["samples"], 17280)
+
+    def test_ticks_of_a_clock_printed_to_milliseconds(self):
+        k = numpy.arange(6000)
+        for row in (0.01, 0.02, 0.025):
+            stamps = numpy.floor(k * row * 64) / 64
+            _, axis = self.mean(self.table("g.csv", "t_s,w_dph", [f"{t:.3f}" for t in stamps], self.w()))
+            self.assertEqual((axis["samples"], axis["gaps"]), (6000, 0))
+            self.assertAlmostEqual(axis["rate_hz"], 1 / row, delta=0.002 / row)
+
+    def test_sentences_of_novatel(self):
+        rows = [f"%RAWIMUSA,2386,{99960 + k / 200:.3f};2386,{99960 + k / 200:.9f},00000077,-280,-241,-260,-125,{k % 7},-{k % 5}*54155249"
+                for k in range(800)]
+        path = self.write("r.asc", "\n".join(rows) + "\n")
+        mean, axis = self.mean(path, *(x for said in ("axis=12", "time=5", "time_unit=s", "holds=increment", "unit=counts", "scale_arcsec=0.1")
+                                       for x in ("--map", said)))
+        self.assertEqual((axis["samples"], axis["rate_hz"]), (800, 200))
+        self.assertAlmostEqual(mean, -2.0 * 0.1 * 200, places=6)
+
+    def test_strict_and_suffixes_of_process(self):
+        log = self.folder / "raw.csv"
+        self.succeed("simulate", "--duration", "2", "--out", log)
+        self.succeed("process", log, "--strict", "--out", self.folder / "A.MCAP")
+        self.assertTrue((self.folder / "A.MCAP").read_bytes().startswith(b"\x89MCAP"))
 
 
 if __name__ == "__main__":

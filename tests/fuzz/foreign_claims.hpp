@@ -55,8 +55,9 @@ inline void claim_rows(const logs::ForeignLook& look) {
     }
     for (const logs::ImportedAxis& axis : logs::imported_axes(look).axes) {
         claim(std::isfinite(axis.rate_hz) && axis.rate_hz > 0.0, "rows have a rate");
-        for (const core::AngleRow& row : logs::angle_rows(axis))
+        logs::angle_rows(axis, [](const core::AngleRow& row) {
             claim(std::isfinite(row.dtheta_arcsec) && std::isfinite(row.dtheta_final_arcsec), "an angle is a number");
+        });
     }
 }
 

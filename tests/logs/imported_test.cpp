@@ -41,7 +41,8 @@ TEST(ImportedAxes, a_hole_in_angles_keeps_the_turn) {
     const ImportedAxes made =
         imported_axes(look_of("time_s;angle\n0,0;1,5\n0,1;2,5\n0,2;4,5\n0,5;10,5\n0,6;11\n0,7;12\n0,8;11\n",
                               {"axis=angle", "holds=angle", "unit=arcsec"}));
-    const std::vector<core::AngleRow> rows = angle_rows(made.axes.front());
+    std::vector<core::AngleRow> rows;
+    ASSERT_EQ(angle_rows(made.axes.front(), [&](const core::AngleRow& row) { rows.push_back(row); }), 8);
     ASSERT_EQ(rows.size(), 8u);
     for (int k = 2; k < 5; ++k) EXPECT_DOUBLE_EQ(rows[static_cast<std::size_t>(k)].dtheta_arcsec, 2.0);
     EXPECT_EQ(rows[3].flags, core::flag_invalid | core::flag_interpolated);

@@ -208,6 +208,77 @@ TEST(NoiseFit, rounding_of_a_counter_is_quantisation_at_long_times_and_no_walk_a
     EXPECT_TRUE(std::isnan(white.second));
 }
 
+TEST(NoiseFit, samples_that_are_missing_all_over_leave_the_long_times) {
+    SimulatedNoise gyro(1 << 17, 100.0, 31);
+    gyro.add_white(0.3);
+    gyro.add_random_walk(0.05);
+    std::mt19937 engine(2);
+    for (double& rate : gyro.rates)
+        if (std::bernoulli_distribution{0.3}(engine)) rate = std::nan("");
+    const NoiseFit fit = fit_noise_in_place(gyro.rates, 100.0);
+    EXPECT_TRUE(fit.describes);
+    EXPECT_GT(fit.points.back().tau_s, 100.0);
+    for (const auto& [kind, value] :
+         {std::pair{NoiseKind::angle_random_walk, 0.3}, {NoiseKind::rate_random_walk, 0.05}}) {
+        ASSERT_TRUE(term(fit, kind).found);
+        EXPECT_NEAR(term(fit, kind).value, value, 3.0 * term(fit, kind).sigma);
+    }
+    EXPECT_EQ(n_found(fit), 2);
+}
+
+TEST(NoiseFit, a_low_pass_that_rings_is_no_quantisation) {
+    for (const double damping : {0.1, 0.3, 0.5}) {
+        SimulatedNoise gyro(100000, 100.0, 32);
+        gyro.add_white(1.0);
+        // y'' + 2 d w y' + w^2 y = w^2 x of 15 Hz by the bilinear rule.
+        const double w = 2.0 * std::numbers::pi * 15.0 / 200.0, a = 1.0 + 2.0 * damping * w + w * w;
+        double x1 = 0.0, x2 = 0.0, y1 = 0.0, y2 = 0.0;
+        for (double& rate : gyro.rates) {
+            const double x = rate;
+            rate =
+                (w * w * (x + 2.0 * x1 + x2) - (2.0 * w * w - 2.0) * y1 - (1.0 - 2.0 * damping * w + w * w) * y2) / a;
+            x2 = std::exchange(x1, x);
+            y2 = std::exchange(y1, rate);
+        }
+        const NoiseFit fit = fit_noise_in_place(gyro.rates, 100.0);
+        EXPECT_FALSE(term(fit, NoiseKind::quantisation).found) << damping;
+        EXPECT_NEAR(term(fit, NoiseKind::angle_random_walk).value, 1.0,
+                    3.0 * term(fit, NoiseKind::angle_random_walk).sigma);
+    }
+}
+
+// Counts of an angle that turns with white noise, as rates of 10 samples a second.
+std::vector<double> counted(double rate, double n, double count, std::size_t samples, unsigned seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> normal(0.0, n * std::sqrt(0.1));
+    std::vector<double> rates(samples);
+    double angle = 0.5 * count, before = 0.0;
+    for (double& r : rates) {
+        angle += rate * 0.1 + normal(engine);
+        r = count * (std::floor(angle / count) - before) / 0.1;
+        before = std::floor(angle / count);
+    }
+    return rates;
+}
+
+TEST(NoiseFit, a_counter_that_hardly_counts_gives_an_honest_angle_random_walk_or_none) {
+    double squares = 0.0, n_found = 0.0;
+    for (const double rate : {0.0, 0.3, 1.1})
+        for (unsigned seed = 0; seed < 5; ++seed) {
+            std::vector<double> rates = counted(rate, 1.0, 3.263, 1 << 17, seed);
+            const FittedTerm white = term(fit_noise_in_place(rates, 10.0), NoiseKind::angle_random_walk);
+            if (!white.found) continue;
+            n_found += 1.0;
+            squares += std::pow((white.value - 1.0) / white.sigma, 2);
+        }
+    EXPECT_GE(n_found, 11.0);
+    EXPECT_LT(squares / n_found, 2.0);
+    // Where no averaging time is long enough nothing is said.
+    std::vector<double> rates = counted(0.1, 0.138, 3.263, 10000, 1);
+    const std::string why = test::message_of<deviations::SeriesError>([&] { (void)fit_noise_in_place(rates, 10.0); });
+    test::expect_contains(why, "rounding to whole counts");
+}
+
 TEST(NoiseFit, refuses_what_tells_nothing) {
     const auto refuses = [](std::vector<double> rates, double rate_hz) {
         EXPECT_THROW((void)fit_noise_in_place(rates, rate_hz), deviations::SeriesError);

@@ -29,4 +29,13 @@ TEST(HowMade, names_what_was_read) {
     EXPECT_EQ(text.find("seed"), std::string::npos) << "nothing was simulated";
 }
 
+TEST(HowMade, of_files_the_command_and_what_each_file_was) {
+    config::Config asked;
+    config::apply_set(asked, "analysis.confidence=0.9");
+    const std::string code = study::how_made("zlg analyze w.csv", {"w.csv: 3 bytes"}, "axis = [\"2\"]\n", asked).code;
+    for (const char* part :
+         {"zlg analyze w.csv\n# w.csv: 3 bytes\n", "\naxis = [\"2\"]\n", "analysis.confidence = 0.9\n"})
+        test::expect_contains(code, part);
+}
+
 }  // namespace zlg::how_made_test

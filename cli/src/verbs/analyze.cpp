@@ -11,6 +11,7 @@
 #include <zlg/noise/imu_yaml.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/analyze.hpp>
+#include <zlg/study/how_made.hpp>
 
 #include "src/analysis_input.hpp"
 #include "src/analysis_json.hpp"
@@ -83,6 +84,13 @@ void analyze(const AnalyzeOptions& options) {
         result.axes.push_back(study::analyze_axis(task, std::move(axis)));
     }
     result.earth = study::earth_lines(result.axes);
+    if (!options.out.empty()) {
+        std::vector<std::string> files;
+        for (const std::string& file : options.files) files.push_back(file_facts(file));
+        for (const std::string& other : {options.mapping_path, options.config_path, options.compare})
+            if (!other.empty()) files.push_back(file_facts(other));
+        result.made = study::how_made(typed_command(), files, mapping_of(options).toml(), input.config);
+    }
     // All that may refuse comes before the first file.
     std::vector<Output> outputs;
     const report::Page page = study::analysis_page(task.config, result);
@@ -93,6 +101,7 @@ void analyze(const AnalyzeOptions& options) {
     print(options.json ? pretty(analysis_json(result)) : report::text(page));
     std::size_t n_warnings = 0;
     for (const study::AxisResult& axis : result.axes) n_warnings += axis.warnings.size();
+    for (const study::TableResult& test : result.tables) n_warnings += test.warnings.size();
     refuse_warnings(options, n_warnings);
 }
 

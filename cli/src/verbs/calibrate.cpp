@@ -169,7 +169,10 @@ void add_calibrate(CLI::App& program) {
     const auto options = std::make_shared<CalibrateOptions>();
     CLI::App* verb = program.add_subcommand(
         "calibrate", "laboratory logs in, the constants that compensation presumes out, each with its sigma");
-    verb->add_option("RAW", options->raws, "raw logs of one gyro, at rest or at a known rate");
+    verb->add_option(
+        "RAW", options->raws,
+        "raw logs of one gyro, at rest or at a known rate, or files of other programs with counts (zlg import "
+        "says what one of those is)");
     verb->add_flag("--from-laser", options->from_laser, "derive bias, chi and discriminator from [laser] instead");
     verb->add_option(
             "--rate-arcsec-s", options->rate_arcsec_s,

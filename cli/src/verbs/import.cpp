@@ -102,19 +102,20 @@ std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& 
     const logs::ImportedAxis& axis = made.axes.front();
     warnings = axis.warnings;
     note_all(options.file(), warnings);
+    if (!made.temperature_c.empty())
+        throw UsageError{"--map temperature_c: an angle log holds no temperature; allowed is to leave it out"};
     complain(fmt::format("note: {}: {}, {}", name_of_file(options.file()), axis.name, axis.holds));
     const double tick_s = 1.0 / axis.rate_hz;
     const config::Settings settings{{"gyro.tick_s", fmt::format("{}", tick_s)}};
     require_readable(options, settings);
     const Interruptible interruptible;
     logs::AngleWriter log{options.out, tick_s, settings, options.force, {}};
-    const std::vector<core::AngleRow> rows = logs::angle_rows(axis);
-    for (const core::AngleRow& row : rows) {
+    const std::int64_t n = logs::angle_rows(axis, [&](const core::AngleRow& row) {
         if (row.tick % 100'000 == 0) interruptible.check();
         log.write(row);
-    }
+    });
     log.close();
-    return rows.size();
+    return static_cast<std::size_t>(n);
 }
 
 // Without a log that is written.

@@ -20,6 +20,7 @@
 #include <zlg/rig/replay.hpp>
 #include <zlg/study/half_wave_replay.hpp>
 #include <zlg/study/switch_table.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "src/as_json.hpp"
 #include "src/failure.hpp"
@@ -149,7 +150,7 @@ Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter&
     return summary;
 }
 
-std::string text(const Summary& s, const ProcessOptions& options) {
+std::string text_of(const Summary& s, const ProcessOptions& options) {
     std::string flags;
     for (std::size_t bit = 0; bit < s.flagged.size(); ++bit)
         if (s.flagged[bit] > 0) flags += fmt::format("  {:<18} {}\n", core::angle_flag_names[bit], s.flagged[bit]);
@@ -171,7 +172,7 @@ nlohmann::json process_json(const Summary& s, const ProcessOptions& options, con
 }
 
 void process(const ProcessOptions& options) {
-    if (!options.out.ends_with(".mcap")) (void)log_format(options.out);
+    if (!text::lower_case(options.out).ends_with(".mcap")) (void)log_format(options.out);
     refuse_own_input(options.raw, options.out);
     if (!options.switches.empty()) {
         require_suffix(options.switches, ".csv");
@@ -184,7 +185,8 @@ void process(const ProcessOptions& options) {
     if (options.follow && logs::recognise(options.raw) == logs::LogKind::raw_csv)
         throw UsageError{
             fmt::format("--follow: {} is a CSV log; allowed is HDF5, which can be read while it grows", options.raw)};
-    logs::RawReader raw = open_raw(options, options.raw);
+    std::size_t n_warnings = 0;
+    logs::RawReader raw = open_raw(options, options.raw, &n_warnings);
     const recorded::LogCompensation asked = log_compensation(options, raw.header(), options.raw);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
 
@@ -204,7 +206,8 @@ void process(const ProcessOptions& options) {
     const logs::Together all_or_none;
     switches.close();
     angles.close();
-    print(options.json ? pretty(process_json(summary, options, asked.config)) : text(summary, options));
+    print(options.json ? pretty(process_json(summary, options, asked.config)) : text_of(summary, options));
+    refuse_warnings(options, n_warnings);
 }
 
 }  // namespace
@@ -212,7 +215,9 @@ void process(const ProcessOptions& options) {
 void add_process(CLI::App& program) {
     const auto options = std::make_shared<ProcessOptions>();
     CLI::App* verb = program.add_subcommand("process", "a recorded raw log through the compensation");
-    verb->add_option("RAW", options->raw, "raw log")->required();
+    verb->add_option("RAW", options->raw,
+                     "raw log, or a file of another program with counts (zlg import says what it is)")
+        ->required();
     verb->add_option("--switches", options->switches, "one row per switch, CSV");
     verb->add_flag("--follow", options->follow, "go on while the log (HDF5) is being written, until it is complete");
     verb->add_option("--give-up", options->give_up_s, "end following after so long without a new row (10)")
@@ -222,6 +227,7 @@ void add_process(CLI::App& program) {
             return read && seconds >= 0.0 && seconds <= 1e6 ? "" : fmt::format("{}: allowed is 0..1e6 s", text);
         });
     add_mapping_options(*verb, *options);
+    add_strict_option(*verb, *options);
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
     verb->get_option("--out")->description("where to write; .mcap: messages sensor_msgs/msg/Imu");

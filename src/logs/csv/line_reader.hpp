@@ -36,6 +36,8 @@ public:
 
     // Of the file's bytes, 0..1; 0 where a size is not known.
     [[nodiscard]] double fraction_read() const;
+    // 0 where it is not known.
+    [[nodiscard]] std::size_t size_bytes() const { return static_cast<std::size_t>(size_bytes_); }
 
 private:
     void refill();

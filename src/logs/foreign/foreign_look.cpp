@@ -240,12 +240,15 @@ void refuse_idle_keys(const ForeignLook& look) {
     constexpr std::array<std::string_view, 6> of_axes{"axis", "holds", "unit", "scale", "table_rate", "table_unit"};
     const bool is_raw = look.makes == Makes::raw;
     const std::vector<std::string> columns = look.mapping.raw_columns();
-    const bool has_mode = std::ranges::find(columns, look.mapping.text("mode")) != columns.end();
+    const auto is_column = [&](const std::string& key) {
+        return std::ranges::find(columns, look.mapping.text(key)) != columns.end();
+    };
     for (const std::string& key : look.mapping.keys_set()) {
         const bool is_of_axes = std::ranges::find(of_axes, key) != of_axes.end();
         const bool is_of_raw = is_raw_key(key) || std::ranges::find(of_raw, key) != of_raw.end();
-        const bool is_mode = has_mode && (key == "mode" || key == "mode_plus");
-        const bool is_idle = is_raw ? is_of_axes : is_of_raw && !is_mode;
+        const bool is_of_both =
+            (key == "temperature_c" && is_column(key)) || ((key == "mode" || key == "mode_plus") && is_column("mode"));
+        const bool is_idle = is_raw ? is_of_axes : is_of_raw && !is_of_both;
         if (is_idle)
             throw MappingError(
                 fmt::format("{}: {} = {} is {}; allowed is {}", look.table.path, key,

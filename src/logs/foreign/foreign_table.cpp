@@ -70,6 +70,10 @@ void fill_columns(const std::string& path, TextTable& table, const std::vector<F
         const auto fill = [&](TextColumn& column) {  // where it is of this array
             const auto number = static_cast<std::size_t>(column.number - 1);
             if (number < first || number >= first + array.columns) return false;
+            if (array.columns == 1) {
+                column.values = array.read(array.rows, true);
+                return true;
+            }
             if (values.empty()) values = array.read(array.rows, true);
             const auto begin = values.begin() + static_cast<std::ptrdiff_t>((number - first) * array.rows);
             column.values.assign(begin, begin + static_cast<std::ptrdiff_t>(array.rows));

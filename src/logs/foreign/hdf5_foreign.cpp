@@ -33,15 +33,18 @@ using ObjectInfo = H5O_info1_t;
 using ObjectInfo = H5O_info_t;
 #endif
 
+// Where its attributes contradict each other all are named, which together are no unit.
 std::string unit_of(const Source& file, const std::string& path) {
+    std::string all;
     for (const char* name : {"unit", "units", "Unit", "Units"}) {
         try {
-            if (const auto unit = file.text_attribute(path, name)) return *unit;
+            const auto unit = file.text_attribute(path, name);
+            if (unit && all.find(*unit) == std::string::npos) all += all.empty() ? *unit : " or " + *unit;
         } catch (const FormatError&) {
             // An attribute of that name that is no text says nothing.
         }
     }
-    return {};
+    return all;
 }
 
 // What its attributes make of the numbers of a data set, where that is not the numbers themselves.

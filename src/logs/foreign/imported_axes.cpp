@@ -112,18 +112,25 @@ ImportedAxes imported_axes(const ForeignLook& look) {
             fmt::format("{}: axis = {}: this column holds the times of the rows; allowed is another, or time=none",
                         look.table.path, times));
     const std::size_t n_axes = wanted.size();
-    for (const char* key : {"mode", "table_rate"})
+    for (const char* key : {"mode", "temperature_c", "table_rate"})
         if (look.mapping.has(key)) wanted.push_back(column_named(look.table, look.mapping.text(key)).number);
     TextTable read = look.table.read(wanted, times);
     take_out_missing(look.mapping, read);
-    ImportedAxes imported{.axes = {}, .table_rates_arcsec_s = {}, .notes = settle_times(read)};
+    ImportedAxes imported{.axes = {}, .table_rates_arcsec_s = {}, .temperature_c = {}, .notes = settle_times(read)};
     std::vector<std::string> warnings = take_once(read, look.table.path);
-    RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
+    const RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
+    read.times.reset();
     std::ranges::copy(clock.notes, std::back_inserter(imported.notes));
     std::ranges::copy(clock.warnings, std::back_inserter(warnings));
     if (look.mapping.has("table_rate")) imported.table_rates_arcsec_s = table_rates(look, read.columns.back(), clock);
     const auto mode =
         look.mapping.has("mode") ? modes_of(look, read.columns[n_axes], clock) : std::vector<std::int8_t>{};
+    if (look.mapping.has("temperature_c")) {
+        TextColumn& column = read.columns[n_axes + (look.mapping.has("mode") ? 1 : 0)];
+        if (clock.times) fill_holes(column.values, *clock.times);
+        if (look.mapping.text("holds") == "angle") column.values.erase(column.values.begin());
+        imported.temperature_c = std::move(column.values);
+    }
     for (std::size_t k = 0; k < n_axes; ++k) {
         imported.axes.push_back(axis_of(look, read.columns[k], clock));
         imported.axes.back().mode = mode;
@@ -133,34 +140,29 @@ ImportedAxes imported_axes(const ForeignLook& look) {
     return imported;
 }
 
-std::vector<core::AngleRow> angle_rows(const ImportedAxis& axis) {
+std::int64_t angle_rows(const ImportedAxis& axis, const std::function<void(const core::AngleRow&)>& take) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    std::vector<core::AngleRow> rows(axis.rates_arcsec_s.size());
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        const double rate = axis.rates_arcsec_s[k];
-        const bool known = !std::isnan(rate);
-        const double turn = known ? rate / axis.rate_hz : 0.0;
-        rows[k] = {.tick = static_cast<std::int64_t>(k),
-                   .dtheta_arcsec = turn,
-                   .dtheta_final_arcsec = turn,
-                   .sigma_arcsec = unknown};
-        if (!known) rows[k].flags = core::flag_invalid | core::flag_unrepaired;
-        if (!axis.mode.empty()) rows[k].mode = axis.mode[k];
-    }
-    // Between two angles that are known the turn is known, and not where it happened.
     const std::vector<double>& angle = axis.phase_arcsec;
-    for (std::size_t from = 0; from + 1 < angle.size();) {
-        std::size_t to = from + 1;
-        while (to < angle.size() && std::isnan(angle[to])) ++to;
-        if (to < angle.size() && to > from + 1 && !std::isnan(angle[from]))
-            for (std::size_t k = from; k < to; ++k) {
-                const double turn = (angle[to] - angle[from]) / static_cast<double>(to - from);
-                rows[k].dtheta_arcsec = rows[k].dtheta_final_arcsec = turn;
-                rows[k].flags = core::flag_invalid | core::flag_interpolated;
-            }
-        from = to;
+    const std::size_t n = axis.rates_arcsec_s.size();
+    for (std::size_t from = 0, to = 0; from < n; from = to) {
+        // Between two angles that are known the turn is known, and not where it happened.
+        for (++to; to < angle.size() && std::isnan(angle[to]);) ++to;
+        const bool is_spread = to > from + 1 && to < angle.size() && !std::isnan(angle[from]);
+        for (std::size_t k = from; k < std::min(to, n); ++k) {
+            const double rate = axis.rates_arcsec_s[k];
+            core::AngleRow row{.tick = static_cast<std::int64_t>(k), .sigma_arcsec = unknown};
+            if (!std::isnan(rate))
+                row.dtheta_arcsec = rate / axis.rate_hz;
+            else if (is_spread)
+                row.dtheta_arcsec = (angle[to] - angle[from]) / static_cast<double>(to - from);
+            row.dtheta_final_arcsec = row.dtheta_arcsec;
+            if (std::isnan(rate))
+                row.flags = core::flag_invalid | (is_spread ? core::flag_interpolated : core::flag_unrepaired);
+            if (!axis.mode.empty()) row.mode = axis.mode[k];
+            take(row);
+        }
     }
-    return rows;
+    return static_cast<std::int64_t>(n);
 }
 
 }  // namespace zlg::logs

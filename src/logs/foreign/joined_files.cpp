@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <zlg/logs/imported.hpp>
@@ -20,7 +21,12 @@ void append(std::vector<double>& to, const std::vector<double>& values, double s
 // errors  MappingError: its times begin before those of the rows before it have ended.
 void append(TextTable& to, const TextTable& more, const std::string& path) {
     if (to.times) {
-        const double shift = more.times->origin - to.times->origin;
+        double shift = more.times->origin - to.times->origin;
+        // As within a file: what goes on by less.
+        const double end = to.times->values.back() - more.times->values.front();
+        if (const double other = more.times->other_origin - to.times->other_origin;
+            more.times->holds_dates && std::fabs(other - end) < std::fabs(shift - end))
+            shift = other;
         const bool is_absolute = more.times->holds_dates || more.times->origin != 0.0;
         if (is_absolute && more.times->values.front() + shift <= to.times->values.back())
             throw MappingError(

@@ -126,21 +126,23 @@ private:
 
     // The tag that the bytes begin with says how many they are.
     void take_compressed(const Piece& packed) {
-        std::string bytes;
-        std::size_t most = 0;
-        const auto read = [&packed](std::size_t at, std::size_t n, char* to) { packed.read(at, n, to); };
+        std::string tag;
+        std::size_t most = 0, n = 0;
+        const auto read = [&packed](std::size_t at, std::size_t size, char* to) { packed.read(at, size, to); };
         const auto take = [&](std::string_view piece) {
-            bytes += piece;
-            if (most == 0 && bytes.size() >= tag_bytes) {
-                most = 2 * tag_bytes + word(Piece::of_memory(bytes.substr(0, tag_bytes)), 4);
+            if (tag.size() < tag_bytes) tag += piece.substr(0, tag_bytes);
+            if (most == 0 && tag.size() >= tag_bytes) {
+                std::uint32_t size = 0;
+                std::memcpy(&size, tag.data() + 4, sizeof size);
+                most = 2 * tag_bytes + (swapped_ ? __builtin_bswap32(size) : size);
                 budget_.take_unpacked(most);
-                bytes.reserve(most);
             }
-            return most == 0 || bytes.size() <= most;
+            n += piece.size();
+            return most == 0 || n <= most;
         };
         if (!inflate_all(packed.size(), read, take))
             refuse("has compressed bytes that do not end, or are more than they say");
-        Rest rest{Piece::of_memory(std::move(bytes))};
+        Rest rest{Piece::of_packed(packed, n)};
         const Element element = next(rest, true);
         if (element.type == matrix) take_matrix(element.data, {}, 0);
     }

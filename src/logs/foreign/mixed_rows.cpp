@@ -11,6 +11,7 @@
 #include <zlg/text/spelling.hpp>
 
 #include "mixed_rows.hpp"
+#include "row_clock.hpp"
 
 namespace zlg::logs {
 
@@ -103,14 +104,6 @@ bool differ(const ForeignColumn& column, const std::vector<std::int64_t>& kinds)
     return false;
 }
 
-// It holds something else.
-bool is_said(const ForeignColumn& column, const ForeignLook& look) {
-    std::vector<std::string> said = look.mapping.axes();
-    for (const char* key : {"mode", "table_rate"})
-        if (look.mapping.has(key)) said.push_back(look.mapping.text(key));
-    return std::ranges::any_of(said, [&](const auto& name) { return &column_named(look.table, name) == &column; });
-}
-
 }  // namespace
 
 void refuse_mixed_rows(const ForeignLook& look) {
@@ -118,7 +111,7 @@ void refuse_mixed_rows(const ForeignLook& look) {
     if (look.mapping.has("sensor")) return;
     for (const ForeignColumn& column : look.table.columns) {
         const std::vector<std::int64_t> kinds = kinds_of(column);
-        if (kinds.empty() || is_said(column, look)) continue;
+        if (kinds.empty() || is_said(column, look.table, look.mapping)) continue;
         const std::vector<Run> runs = runs_of(kinds);
         const bool is_often = runs.size() * seldom > kinds.size() && runs.size() > fewest;
         bool is_mixed = names_sensor(column.name);

@@ -11,6 +11,8 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/time_check.hpp>
 
+#include "text_table/steps.hpp"
+
 namespace zlg::logs {
 
 namespace {
@@ -121,27 +123,34 @@ void check_one_rate(const TextColumn& times, const RowTimes& found, const std::s
     if (std::fabs(last - first) > (most_apart + known) * found.step) refuse(t.size() - 1 - third, last);
 }
 
-// The place to which stamps are rounded, where that is no small part of a row; 0: it is. A decimal one, or the smallest
-// step, as of a clock that ticks or of numbers of 32 bits.
+// The place to which stamps are rounded, where that is no small part of a row; 0: it is. A decimal one, or the tick of
+// a clock, as the smallest step has it within the last digit that is written.
 struct Place {
     double size = 0.0;
     bool is_decimal = false;
+    double digit = 0.0;
 };
 
 Place coarse_place(std::span<const double> t, double step) {
-    for (double place = std::pow(10.0, std::floor(std::log10(step) + 1e-9)); place > 0.2 * step; place /= 10.0)
-        if (std::ranges::all_of(t, [place](double v) { return std::fabs(v / place - std::round(v / place)) < 1e-4; }))
-            return {place, true};
+    double digit = std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    const auto is_place = [&](double v) { return std::fabs(v / digit - std::round(v / digit)) < 1e-4; };
+    while (digit > 1e-3 * step && !std::ranges::all_of(t, is_place)) digit /= 10.0;
+    if (digit > 0.2 * step) return {digit, true, 0.0};
+    if (digit <= 1e-3 * step) digit = 0.0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < t.size(); ++k)
         if (t[k] > t[k - 1]) least = std::min(least, t[k] - t[k - 1]);
+    double n_ticks = 0.0;
+    for (std::size_t k = 1; k < t.size(); ++k)
+        n_ticks += std::round((t[k] - t[k - 1]) / (n_ticks > 0.0 ? (t[k - 1] - t.front()) / n_ticks : least));
+    const double tick = digit == 0.0 ? least : (t.back() - t.front()) / n_ticks;
     const double far = std::max(std::fabs(t.front()), std::fabs(t.back()));
-    const double rounding = 1e-3 + 4.0 * far * std::numeric_limits<double>::epsilon() / least;
-    const bool are_multiples = rounding < 0.1 && std::ranges::all_of(t, [&](double v) {
-                                   const double n = (v - t.front()) / least;
+    const double rounding = 1e-3 + (digit + 4.0 * far * std::numeric_limits<double>::epsilon()) / tick;
+    const bool are_multiples = rounding < 0.2 && std::ranges::all_of(t, [&](double v) {
+                                   const double n = (v - t.front()) / tick;
                                    return std::fabs(n - std::round(n)) < rounding;
                                });
-    return {are_multiples && least > 0.2 * step ? least : 0.0, false};
+    return {are_multiples && tick > 0.2 * step ? tick : 0.0, false, digit};
 }
 
 // Of the strip about an even course that holds all times; convex in the step.
@@ -161,7 +170,7 @@ double width_about(std::span<const double> t, double step) {
 void check_coarse(const TextColumn& times, RowTimes& found, double said, const std::string& path) {
     const std::vector<double>& t = times.values;
     const double mean = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
-    const auto [place, is_decimal] = coarse_place(t, std::min(mean, found.step));
+    const auto [place, is_decimal, digit] = coarse_place(t, std::min(mean, found.step));
     if (place == 0.0) return;
     std::size_t n_odd = 0;
     for (std::size_t k = 1; k < t.size(); ++k)
@@ -181,7 +190,7 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
             least = lower;
     }
     const double step = (least + most) / 2.0;
-    const bool is_even = width_about(t, step) <= 1.01 * place;
+    const bool is_even = width_about(t, step) <= 1.01 * place + digit;
     if (are_few) {
         if (!is_even || (said > 0.0 && std::fabs(said - found.step) < std::fabs(said - step))) return;
         if (said == 0.0)
@@ -204,18 +213,15 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
 // Of the steps from row to row, holes left out, many are far from the median.
 std::string odd_steps(const TextColumn& times, const RowTimes& found) {
     constexpr double far = 0.5, many = 0.01;
-    std::vector<double> steps;
-    for (std::size_t k = 1; k < times.values.size(); ++k) steps.push_back(times.values[k] - times.values[k - 1]);
-    const auto middle = steps.begin() + std::ssize(steps) / 2;
-    std::ranges::nth_element(steps, middle);
-    const double usual = *middle;
-    const auto n = std::ranges::count_if(steps, [&](double step) { return std::fabs(step - usual) > far * usual; }) -
-                   std::ssize(found.holes);
-    if (!(usual > 0.0) || static_cast<double>(n) <= many * static_cast<double>(steps.size())) return {};
+    const std::vector<double>& t = times.values;
+    const double usual = usual_step(t), n_steps = static_cast<double>(t.size()) - 1.0;
+    std::ptrdiff_t n = -std::ssize(found.holes);
+    for (std::size_t k = 1; k < t.size(); ++k) n += std::fabs(t[k] - t[k - 1] - usual) > far * usual ? 1 : 0;
+    if (!(usual > 0.0) || static_cast<double>(n) <= many * n_steps) return {};
     return fmt::format(
         "{}: {:.3g} % of its steps are more than half a row off their median, {:.6g}; the rows are taken "
         "as even",
-        described(times), 100.0 * static_cast<double>(n) / static_cast<double>(steps.size()), usual);
+        described(times), 100.0 * static_cast<double>(n) / n_steps, usual);
 }
 
 }  // namespace

@@ -41,6 +41,9 @@ void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const s
 // name, as it rises.
 [[nodiscard]] std::int64_t time_column(const ForeignTable& table, const Mapping& mapping);
 
+// It is said to hold something else than times.
+[[nodiscard]] bool is_said(const ForeignColumn& column, const ForeignTable& table, const Mapping& mapping);
+
 // "time=1|2 or none (columns ...)" where more than one column may hold them, and no name decides; empty else.
 [[nodiscard]] std::string open_times(const ForeignTable& table, const Mapping& mapping);
 

@@ -11,17 +11,39 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/text/inputs.hpp>
 
+#include "inflated.hpp"
+
 namespace zlg::logs {
 
 struct Piece::Source {
-    std::string path;  // empty: `memory`
+    std::string path;
     FileDescriptor file;
-    std::string memory;
+    Piece packed;  // of `unpacked`, where there is any
+    std::unique_ptr<Inflated> unpacked;
+    std::size_t at = 0;  // of what `unpacked` makes next
+
+    void read_unpacked(std::size_t from, std::size_t n, char* to) {
+        std::array<char, 4096> passed;
+        if (!unpacked || from < at) {
+            unpacked = std::make_unique<Inflated>(
+                packed.size(), [this](std::size_t k, std::size_t m, char* in) { packed.read(k, m, in); });
+            at = 0;
+        }
+        bool is_there = true;
+        while (at < from && is_there) {
+            const std::size_t now = std::min(passed.size(), from - at);
+            is_there = unpacked->next(now, passed.data()) == now;
+            at += now;
+        }
+        if (!is_there || unpacked->next(n, to) != n) throw IoError(fmt::format("cannot read {}: it was cut off", path));
+        at += n;
+    }
 };
 
 Piece Piece::of_file(const std::string& path) {
     Piece piece;
-    auto source = std::make_shared<Source>(Source{.path = path, .file = open_to_read(path), .memory = {}});
+    auto source =
+        std::make_shared<Source>(Source{.path = path, .file = open_to_read(path), .packed = {}, .unpacked = {}});
     text::note_input(source->file.get());
     struct stat status {};
     if (::fstat(source->file.get(), &status) != 0)
@@ -31,10 +53,11 @@ Piece Piece::of_file(const std::string& path) {
     return piece;
 }
 
-Piece Piece::of_memory(std::string memory) {
+Piece Piece::of_packed(const Piece& packed, std::size_t size) {
     Piece piece;
-    piece.size_ = memory.size();
-    piece.source_ = std::make_shared<Source>(Source{.path = {}, .file = {}, .memory = std::move(memory)});
+    piece.size_ = size;
+    piece.source_ =
+        std::make_shared<Source>(Source{.path = packed.source_->path, .file = {}, .packed = packed, .unpacked = {}});
     return piece;
 }
 
@@ -46,10 +69,7 @@ Piece Piece::part(std::size_t at, std::size_t n) const {
 }
 
 void Piece::read(std::size_t at, std::size_t n, char* to) const {
-    if (source_->path.empty()) {
-        std::memcpy(to, source_->memory.data() + begin_ + at, n);
-        return;
-    }
+    if (source_->packed.size() > 0) return source_->read_unpacked(begin_ + at, n, to);
     for (std::size_t done = 0; done < n;) {
         const ssize_t got = ::pread(source_->file.get(), to + done, n - done, static_cast<off_t>(begin_ + at + done));
         if (got < 0 && errno == EINTR) continue;

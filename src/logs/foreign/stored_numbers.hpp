@@ -1,5 +1,5 @@
 #pragma once
-// A matrix of numbers as it lies in a file, or in memory that was decompressed; read where it is wanted.
+// A matrix of numbers as it lies in a file, packed or not; read where it is wanted.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,9 @@ public:
 
     // The whole file. errors  IoError.
     [[nodiscard]] static Piece of_file(const std::string& path);
-    [[nodiscard]] static Piece of_memory(std::string memory);
+    // What a stream of zlib makes, so many bytes; it is unpacked anew where it is read before the place that was read
+    // last.
+    [[nodiscard]] static Piece of_packed(const Piece& packed, std::size_t size);
 
     [[nodiscard]] std::size_t size() const { return size_; }
     // `at` + `n` may not lie beyond the end.
@@ -30,7 +32,7 @@ public:
 
 private:
     struct Source;
-    std::shared_ptr<const Source> source_;
+    std::shared_ptr<Source> source_;
     std::size_t begin_ = 0;
     std::size_t size_ = 0;
 };

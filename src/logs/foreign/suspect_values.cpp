@@ -10,9 +10,13 @@
 #include <vector>
 #include <zlg/logs/error.hpp>
 
+#include "text_table/steps.hpp"
+
 namespace zlg::logs {
 
 namespace {
+
+double size_of_step(double step) { return std::fabs(step); }
 
 // From one known value to the next.
 struct Step {
@@ -22,30 +26,24 @@ struct Step {
     [[nodiscard]] double rows() const { return static_cast<double>(to - from); }
 };
 
-std::vector<Step> steps_of(const std::vector<double>& values) {
-    std::vector<Step> steps;
+template <class Use>
+void each_step(const std::vector<double>& values, Use use) {
     std::size_t last = 0;
     for (std::size_t k = 1; k < values.size(); ++k) {
         if (std::isnan(values[k])) continue;
-        if (!std::isnan(values[last])) steps.push_back({last, k, values[k] - values[last]});
+        if (!std::isnan(values[last])) use(Step{last, k, values[k] - values[last]});
         last = k;
     }
-    return steps;
-}
-
-double usual_size(const std::vector<Step>& steps) {
-    std::vector<double> sizes;
-    for (const Step& step : steps) sizes.push_back(std::fabs(step.size));
-    const auto middle = sizes.begin() + std::ssize(sizes) / 2;
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return *middle;
 }
 
 // A saw, whatever its height: nearly all steps go one way, +1 or -1. 0: they do not, as in what swings to and fro.
-double way_of(const std::vector<Step>& steps) {
-    constexpr std::ptrdiff_t enough = 12;
-    const auto up = std::ranges::count_if(steps, [](const Step& step) { return step.size > 0.0; });
-    const auto down = std::ranges::count_if(steps, [](const Step& step) { return step.size < 0.0; });
+double way_of(const std::vector<double>& values) {
+    constexpr std::size_t enough = 12;
+    std::size_t up = 0, down = 0;
+    each_step(values, [&](const Step& step) {
+        up += step.size > 0.0 ? 1u : 0u;
+        down += step.size < 0.0 ? 1u : 0u;
+    });
     if (up + down < enough || 4 * std::min(up, down) > up + down) return 0.0;
     return up > down ? 1.0 : -1.0;
 }
@@ -59,9 +57,8 @@ void refuse_wraps(const ForeignLook& look, const TextColumn& column, const Angle
     // A rate or an increment is a register where all of it are whole numbers.
     const auto is_whole = [](double v) { return std::isnan(v) || v == std::floor(v); };
     if (!is_angle && !std::ranges::all_of(column.values, is_whole)) return;
-    const std::vector<Step> steps = steps_of(column.values);
-    if (steps.size() < 3) return;
-    const double usual = usual_size(steps), way = is_angle ? way_of(steps) : 0.0;
+    if (std::ranges::count_if(column.values, [](double v) { return !std::isnan(v); }) < 4) return;
+    const double usual = usual_step(column.values, 0.5, size_of_step), way = is_angle ? way_of(column.values) : 0.0;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const double value : column.values) {
         least = std::fmin(least, value);
@@ -71,7 +68,7 @@ void refuse_wraps(const ForeignLook& look, const TextColumn& column, const Angle
     const std::vector<double> ranges = unit.of_counts || !is_angle
                                            ? std::vector<double>{65536.0, 16777216.0, 4294967296.0}
                                            : std::vector<double>{circle / unit.arcsec, circle / 2.0 / unit.arcsec};
-    for (const Step& step : steps) {
+    each_step(column.values, [&](const Step& step) {
         const double jump = std::fabs(step.size), slack = 5.0 * usual * step.rows();
         const auto is_range = [&](double range) {
             return slack < range / 8.0 && std::fabs(jump - range) <= slack + 1e-3 * range;
@@ -84,7 +81,7 @@ void refuse_wraps(const ForeignLook& look, const TextColumn& column, const Angle
                             "allowed are numbers that go on",
                             look.table.path, described(column), step.to + 1, column.values[step.from],
                             column.values[step.to], range == ranges.end() ? jump + usual : *range));
-    }
+    });
 }
 
 void take_out_missing(const Mapping& mapping, TextTable& read) {
@@ -136,10 +133,12 @@ struct Steps {
     [[nodiscard]] double share() const { return n == 0 ? 0.0 : static_cast<double>(n_same) / static_cast<double>(n); }
 };
 
+double size_but_0(double step) { return step == 0.0 ? std::numeric_limits<double>::quiet_NaN() : std::fabs(step); }
+
 Steps look_at_steps(const std::vector<double>& values) {
     constexpr std::size_t many_rows = 32;
     Steps steps;
-    std::vector<double> sizes;
+    double least = std::numeric_limits<double>::infinity();
     Stretch run;
     const auto end_run = [&] {
         if (run.n < many_rows) {
@@ -155,16 +154,14 @@ Steps look_at_steps(const std::vector<double>& values) {
             ++run.n;
             continue;
         }
-        if (k > 0 && std::fabs(values[k] - values[k - 1]) > 0.0) sizes.push_back(std::fabs(values[k] - values[k - 1]));
+        if (k > 0) least = std::fmin(least, size_but_0(values[k] - values[k - 1]));
         end_run();
         run = {k, std::isnan(values[k]) ? 0u : 1u};
     }
     end_run();
-    if (sizes.empty()) return steps;
-    steps.least = *std::ranges::min_element(sizes);
-    const auto middle = sizes.begin() + std::ssize(sizes) / 2;
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    steps.usual = *middle;
+    if (std::isinf(least)) return steps;
+    steps.least = least;
+    steps.usual = usual_step(values, 0.5, size_but_0);
     return steps;
 }
 
@@ -271,12 +268,41 @@ std::string stretches(const TextColumn& column, const Steps& steps, const Rails&
 
 }  // namespace
 
+std::string spikes(std::span<const double> values, const std::string& what) {
+    constexpr double far = 100.0;
+    constexpr std::size_t longest = 8, longest_of_one_value = 32;
+    const double least = far * usual_step(values, 0.5, size_but_0);
+    // The first row that is back from a jump to row k.
+    const auto back = [&](std::size_t k) {
+        const double jump = std::fabs(values[k] - values[k - 1]);
+        bool is_one = true;
+        for (std::size_t to = k + 1; to < std::min(values.size(), k + longest_of_one_value); ++to) {
+            if (std::fabs(values[to] - values[k - 1]) < 0.1 * jump) return to;
+            is_one = is_one && values[to] == values[k];
+            if (!is_one && to >= k + longest) break;
+        }
+        return k;
+    };
+    std::size_t n = 0, first = 0;
+    for (std::size_t k = 1; k < values.size(); ++k) {
+        if (!(std::fabs(values[k] - values[k - 1]) > least)) continue;
+        const std::size_t to = back(k);
+        if (n == 0) first = k;
+        n += to - k;
+        k = std::max(k, to);
+    }
+    if (n == 0) return {};
+    return fmt::format("{}: {} row{} jump{} away by more than {:g} usual steps and back, the first is row {}, {}", what,
+                       n, n == 1 ? "" : "s", n == 1 ? "s" : "", far, first + 1, values[first]);
+}
+
 std::vector<std::string> no_measurements(const TextColumn& column, const std::string& holds) {
     const Steps steps = look_at_steps(column.values);
     const Rails rails{column.values};
     std::vector<std::string> lines;
-    for (std::string line : {repeats(column, steps), stretches(column, steps, rails, holds),
-                             holds == "angle" ? std::string{} : rails_in_words(column, steps, rails)})
+    for (std::string line :
+         {spikes(column.values, described(column)), repeats(column, steps), stretches(column, steps, rails, holds),
+          holds == "angle" ? std::string{} : rails_in_words(column, steps, rails)})
         if (!line.empty()) lines.push_back(std::move(line));
     return lines;
 }

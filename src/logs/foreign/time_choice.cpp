@@ -13,6 +13,7 @@
 #include <zlg/text/spelling.hpp>
 
 #include "row_clock.hpp"
+#include "text_table/steps.hpp"
 #include "text_table/time_names.hpp"
 
 namespace zlg::logs {
@@ -33,11 +34,10 @@ bool is_numbered(const ForeignColumn& column) {
     std::vector<double> values = column.values;
     (void)go_on(values);
     if (values.size() < 3 || !std::ranges::is_sorted(values)) return false;
-    std::vector<double> steps;
-    for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(values[k] - values[k - 1]);
-    const auto middle = steps.begin() + std::ssize(steps) / 2;
-    std::ranges::nth_element(steps, middle);
-    return *middle > 0.0 && 10 * std::ranges::count(steps, *middle) >= 9 * std::ssize(steps);
+    const double usual = usual_step(values);
+    std::size_t n = 0;
+    for (std::size_t k = 1; k < values.size(); ++k) n += values[k] - values[k - 1] == usual ? 1u : 0u;
+    return usual > 0.0 && 10 * n >= 9 * (values.size() - 1);
 }
 
 bool rises(const ForeignColumn& column) {
@@ -57,13 +57,16 @@ bool merely_numbers(const ForeignColumn& column) {
            column.values[1] - column.values[0] == 1.0;
 }
 
-// It holds something else than times.
+}  // namespace
+
 bool is_said(const ForeignColumn& column, const ForeignTable& table, const Mapping& mapping) {
     std::vector<std::string> said = mapping.axes();
     std::ranges::copy(mapping.raw_columns(), std::back_inserter(said));
     if (mapping.has("table_rate")) said.push_back(mapping.text("table_rate"));
     return std::ranges::any_of(said, [&](const auto& name) { return &column_named(table, name) == &column; });
 }
+
+namespace {
 
 // Of these columns those that are not said to hold something else; all, where none is left.
 std::vector<std::int64_t> free_of(const std::vector<std::int64_t>& all, const ForeignTable& table,

@@ -9,6 +9,7 @@
 #include <zlg/logs/error.hpp>
 
 #include "row_clock.hpp"
+#include "text_table/steps.hpp"
 
 namespace zlg::logs {
 
@@ -26,12 +27,6 @@ std::vector<double> ranges(bool of_whole) {
     return all;
 }
 
-double quantile(std::vector<double> values, double share) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::ranges::nth_element(values, at);
-    return *at;
-}
-
 // A row that comes far sooner than one does, where the next one does not come later for it.
 bool is_again(const std::vector<double>& t, std::size_t k, double usual) {
     constexpr double soon = 0.1;
@@ -44,18 +39,16 @@ bool is_again(const std::vector<double>& t, std::size_t k, double usual) {
 }  // namespace
 
 double begin_of_range(std::span<const double> values, double origin) {
-    std::vector<double> steps, falls;
+    std::vector<double> falls;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (!std::isfinite(values[k])) return 0.0;
         least = std::min(least, values[k]);
         most = std::max(most, values[k]);
-        if (k == 0) continue;
-        steps.push_back(values[k] - values[k - 1]);
-        if (steps.back() < 0.0) falls.push_back(steps.back());
+        if (k > 0 && values[k] < values[k - 1]) falls.push_back(values[k] - values[k - 1]);
     }
     if (falls.empty() || 4 * falls.size() > values.size()) return 0.0;
-    const double usual = quantile(std::move(steps), 0.5);
+    const double usual = usual_step(values);
     if (!(usual > 0.0)) return 0.0;
     for (const double range : ranges(std::ranges::all_of(values, [](double v) { return v == std::floor(v); }))) {
         const bool fits =
@@ -113,9 +106,7 @@ void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const s
 std::vector<std::string> take_once(TextTable& read, const std::string& path) {
     if (!read.times || read.times->values.size() < 4) return {};
     std::vector<double>& t = read.times->values;
-    std::vector<double> steps;
-    for (std::size_t k = 1; k < t.size(); ++k) steps.push_back(t[k] - t[k - 1]);
-    const double usual = quantile(std::move(steps), 0.75);
+    const double usual = usual_step(t, 0.75);
     std::vector<std::size_t> again;
     bool are_same = true;
     for (std::size_t k = 1; k < t.size(); ++k) {

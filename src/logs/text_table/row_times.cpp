@@ -9,30 +9,28 @@
 #include <zlg/logs/budget.hpp>
 #include <zlg/logs/error.hpp>
 
+#include "steps.hpp"
 #include "time_names.hpp"
 
 namespace zlg::logs {
 
 namespace {
 
-std::vector<double> steps_of(std::span<const double> values) {
-    std::vector<double> steps;
-    for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(values[k] - values[k - 1]);
-    return steps;
-}
+// From row to row.
+struct Differences {
+    std::span<const double> values;
 
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
+    [[nodiscard]] std::size_t size() const { return values.size() - 1; }
+    [[nodiscard]] double operator[](std::size_t k) const { return values[k + 1] - values[k]; }
+};
 
 // The share of steps that are the usual one, as far as the values resolve it.
-double even_share(std::span<const double> values, const std::vector<double>& steps, double usual) {
-    const double size = std::max(std::fabs(values.front()), std::fabs(values.back()));
+double even_share(const Differences& steps, double usual) {
+    const double size = std::max(std::fabs(steps.values.front()), std::fabs(steps.values.back()));
     const double rounding = 8.0 * size * std::numeric_limits<double>::epsilon();
-    const auto n =
-        std::ranges::count_if(steps, [&](double step) { return std::fabs(step - usual) <= 0.01 * usual + rounding; });
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        n += std::fabs(steps[k] - usual) <= 0.01 * usual + rounding ? 1u : 0u;
     return static_cast<double>(n) / static_cast<double>(steps.size());
 }
 
@@ -41,13 +39,12 @@ constexpr std::int64_t most_missing = 1'000'000'000'000'000;
 
 bool rises_evenly(std::span<const double> values) {
     if (values.size() < 3 || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) return false;
-    const std::vector<double> steps = steps_of(values);
-    const double usual = median_of(steps);
-    return usual > 0.0 && even_share(values, steps, usual) >= (values.size() < many_rows ? 1.0 : 0.9);
+    const double usual = usual_step(values);
+    return usual > 0.0 && even_share({values}, usual) >= (values.size() < many_rows ? 1.0 : 0.9);
 }
 
 // A late stamp is followed by a short step; a hole is not.
-bool is_hole(const std::vector<double>& steps, std::size_t k, double usual, double coarse) {
+bool is_hole(const Differences& steps, std::size_t k, double usual, double coarse) {
     if (!(steps[k] > 1.5 * usual + coarse)) return false;
     const double least = 2.5 * usual + coarse;
     const bool alone_before = k == 0 || steps[k] + steps[k - 1] > least;
@@ -90,26 +87,25 @@ std::optional<RowTimes> row_times(const TextColumn& column, const std::string& p
     const std::vector<double>& values = column.values;
     if (values.size() < 3) return std::nullopt;
     if (!by_name && !rises_evenly(values)) return std::nullopt;
-    const std::vector<double> steps = steps_of(values);
+    const Differences steps{values};
+    bool repeats = false;
+    double coarse = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < steps.size(); ++k) {
-        if (steps[k] >= 0.0) continue;
+        if (steps[k] > 0.0) coarse = std::min(coarse, steps[k]);
+        repeats = repeats || steps[k] == 0.0;
+        if (steps[k] >= 0.0 && std::isfinite(steps[k])) continue;
         if (!is_said) return std::nullopt;  // t_min may be a temperature
+        if (!std::isfinite(steps[k]))
+            throw FormatError(fmt::format("{}, {}: a time is missing", path, described(column)));
         throw FormatError(
             fmt::format("{}, {}: after {} comes {} in row {}, and times do not go back; {} if it holds none", path,
                         described(column), values[k], values[k + 1], k + 2, none));
     }
-    if (!std::ranges::all_of(steps, [](double step) { return std::isfinite(step); })) {
-        if (!is_said) return std::nullopt;
-        throw FormatError(fmt::format("{}, {}: a time is missing", path, described(column)));
-    }
     // Stamps that repeat are coarser than the rows are close.
-    const bool repeats = std::ranges::find(steps, 0.0) != steps.end();
-    double coarse = 0.0;
-    for (const double step : steps)
-        if (repeats && step > 0.0) coarse = coarse > 0.0 ? std::min(coarse, step) : step;
+    if (!repeats || std::isinf(coarse)) coarse = 0.0;
     RowTimes times;
     const double span = values.back() - values.front();
-    const double usual = repeats ? span / static_cast<double>(steps.size()) : median_of(steps);
+    const double usual = repeats ? span / static_cast<double>(steps.size()) : usual_step(values);
     double counted = 0.0;
     double scatter = 0.0;
     std::size_t n_counted = 0;
@@ -172,16 +168,13 @@ void refuse_many_missing(const std::string& path, const std::string& column, std
 
 void fill_holes(std::vector<double>& values, const RowTimes& times) {
     if (times.holes.empty()) return;
-    std::vector<double> filled;
-    filled.reserve(values.size() + static_cast<std::size_t>(times.n_missing));
-    std::size_t next = 0;
-    for (std::size_t row = 0; row < values.size(); ++row) {
-        filled.push_back(values[row]);
-        if (next == times.holes.size() || times.holes[next].row != row) continue;
-        filled.insert(filled.end(), static_cast<std::size_t>(times.holes[next++].n_missing),
-                      std::numeric_limits<double>::quiet_NaN());
+    if (values.empty()) return;
+    std::size_t from = values.size(), to = from + static_cast<std::size_t>(times.n_missing);
+    values.resize(to);
+    for (auto hole = times.holes.rbegin(); hole != times.holes.rend(); ++hole) {
+        for (; from > hole->row + 1; --from) values[--to] = values[from - 1];
+        for (std::int64_t n = 0; n < hole->n_missing; ++n) values[--to] = std::numeric_limits<double>::quiet_NaN();
     }
-    values = std::move(filled);
 }
 
 }  // namespace zlg::logs

@@ -110,6 +110,12 @@ public:
     [[nodiscard]] const std::string& path() const { return lines_.path(); }
     [[nodiscard]] std::int64_t number() const { return number_; }
     [[nodiscard]] bool terminated() const { return lines_.terminated(); }
+    // Lines of the file, by the length of the first ones, and some more.
+    [[nodiscard]] std::size_t about_all() const {
+        std::size_t n_bytes = 1;
+        for (const Line& line : sample_.lines) n_bytes += line.text.size() + 1;
+        return sample_.lines.size() * (lines_.size_bytes() / n_bytes * 9 / 8 + 1);
+    }
 
     bool next(std::string_view& line) {
         if (n_handed_out_ < sample_.lines.size()) {
@@ -139,6 +145,11 @@ private:
             }
             if (n_skipped_++ < layout_.skip_lines) continue;
             line = without_check_sum(line);
+            if (line.size() < text.size() && line.find(';') != std::string_view::npos) {  // behind a head of NovAtel's
+                sentence_.assign(line);
+                std::ranges::replace(sentence_, ';', ',');
+                line = sentence_;
+            }
             if (layout_.only_with.empty() || !is_of_another(text, layout_.only_with)) return true;
         }
         return false;
@@ -147,7 +158,7 @@ private:
     LineReader lines_;
     const TextLayout& layout_;
     FirstLines sample_;
-    std::string comment_;
+    std::string comment_, sentence_;
     std::size_t n_handed_out_ = 0;
     std::int64_t n_skipped_ = 0;
     std::int64_t number_ = 0;
@@ -177,6 +188,8 @@ public:
         table_.names = dialect_.names;
         table_.n_columns = static_cast<std::int64_t>(dialect_.n_fields);
         use_.resize(table_.columns.size());
+        for (TextColumn& column : table_.columns) column.values.reserve(lines_.about_all());
+        if (table_.times) table_.times->values.reserve(lines_.about_all());
     }
 
     TextTable read() {
@@ -235,7 +248,10 @@ private:
         if (!times.holds_dates && !times.values.empty()) return std::nullopt;
         const auto date = date_time(text);
         if (!date) return std::nullopt;
-        if (!times.holds_dates) times.origin = static_cast<double>(date->seconds) + date->fraction;
+        if (!times.holds_dates) {
+            times.origin = static_cast<double>(date->seconds) + date->fraction;
+            times.other_origin = static_cast<double>(date->otherwise.value_or(date->seconds)) + date->fraction;
+        }
         times.holds_dates = true;
         times.is_local = times.is_local || !date->has_zone;
         return dates_.since_first(*date);

@@ -29,6 +29,7 @@ struct RateTable {
     numeric::Estimate asymmetry_ppm;    // (K+ - K-)/mean, lines through positive and negative inputs, each with zero
     double nonlinearity_ppm = 0.0;      // rms of the residuals
     double largest_residual_ppm = 0.0;
+    std::vector<std::size_t> far;      // stages that the line through the others misses by more than 8 of its errors
     double hysteresis_arcsec_s = 0.0;  // largest difference between stages of equal input, over K
 };
 

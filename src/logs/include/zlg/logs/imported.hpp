@@ -5,7 +5,9 @@
 // guessed.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -66,6 +68,7 @@ struct ImportedAxis {
 struct ImportedAxes {
     std::vector<ImportedAxis> axes;
     std::vector<double> table_rates_arcsec_s;  // of a rate table that turned the gyro; NaN: not known; else empty
+    std::vector<double> temperature_c;         // as many as rates of an axis; where no column is said to hold it empty
     std::vector<std::string> notes;
 };
 
@@ -75,6 +78,15 @@ struct ImportedAxes {
 // The angle log of one axis: a row a sample, sigma_arcsec unknown (inf). A missing sample is flagged `invalid` and
 // `unrepaired` and turns by nothing; where angles were recorded the turn over missing ones is spread evenly and flagged
 // `interpolated` in place of `unrepaired`.
-[[nodiscard]] std::vector<core::AngleRow> angle_rows(const ImportedAxis& axis);
+//
+// take    each row in turn.
+// return  how many there are.
+std::int64_t angle_rows(const ImportedAxis& axis, const std::function<void(const core::AngleRow&)>& take);
+
+// Of the rows that jump away by a hundred usual steps and come back at once, a line; empty: there are none.
+//
+// values  NaN where nothing was measured.
+// what    they are, for the line: "column 2".
+[[nodiscard]] std::string spikes(std::span<const double> values, const std::string& what);
 
 }  // namespace zlg::logs

@@ -35,6 +35,7 @@ struct TextColumn {
     std::vector<double> values;  // NaN where a field is empty, `nan`, `NA`, `null` or `-1.#IND`
     bool holds_dates = false;    // of times: dates, or times of the day; the values are seconds from the first one on
     bool is_local = false;       // dates of no said time zone
+    double other_origin = 0.0;   // with the month before the day, where it may stand there
     double origin = 0.0;         // what was taken off the values, in their unit: of dates the first one, since 1970
 };
 

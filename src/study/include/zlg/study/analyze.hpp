@@ -35,6 +35,8 @@ struct PresumedNoise {
 struct TableResult {
     std::string name, holds;
     calibration::RateTable table;
+    std::optional<noise::BiasTemperature> temperature{};
+    std::vector<std::string> warnings{};  // values that may be no measurements, a line each
 };
 
 struct AnalysisResult {
@@ -42,6 +44,7 @@ struct AnalysisResult {
     std::vector<EarthLine> earth;  // of groups of three axes
     std::optional<PresumedNoise> presumed;
     std::vector<TableResult> tables;
+    std::optional<report::Section> made{};  // how the page was made, where more is known than the settings
 };
 
 // What is written for Kalibr of these axes: the largest angle random walk and rate random walk of them; where none has

@@ -8,6 +8,7 @@
 
 #include <zlg/config/config.hpp>
 #include <zlg/deviations/deviation.hpp>
+#include <zlg/noise/bias_temperature.hpp>
 #include <zlg/noise/mode_split.hpp>
 #include <zlg/noise/noise_fit.hpp>
 #include <zlg/noise/spectrum.hpp>
@@ -26,6 +27,7 @@ struct AxisRecord {
     // Where angles were recorded, not what was turned between them: those, one more than rates. The deviations are
     // taken of them, so that one that is missing harms no longer averaging time.
     std::vector<double> phase_arcsec{};
+    std::vector<double> temperature_c{};  // as many as rates, where it was measured
     bool is_error = false;                // of the axis before it, whose truth is known: no rotation of its own
     std::vector<std::string> warnings{};  // values that may be no measurements, a line each
 };
@@ -62,7 +64,8 @@ struct AxisResult {
     // else oadev at octaves. Without points where the record has none.
     deviations::DeviationCurve allan;
     std::optional<noise::NoiseFit> fit;
-    std::string no_fit;  // why there is none
+    std::string no_fit;                                 // why there is none
+    std::optional<noise::BiasTemperature> temperature;  // what was taken out of the rates before the fit
     std::vector<Readout> readouts;
     std::optional<noise::ModeSplit> modes;
     std::vector<deviations::DeviationCurve>

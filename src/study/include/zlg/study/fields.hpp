@@ -50,6 +50,7 @@ BOOST_HANA_ADAPT_STRUCT(zlg::noise::DataSheet, quantisation_arcsec, angle_random
                         bias_instability_deg_h, rate_random_walk_deg_h_sqrt_h, ramp_deg_h_h);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::DiscreteNoise, white_rate_arcsec_s, white_increment_arcsec, walk_step_arcsec_s,
                         angle_error_arcsec, ramp_step_arcsec_s, markov_factor, markov_step_arcsec_s);
+BOOST_HANA_ADAPT_STRUCT(zlg::noise::BiasTemperature, mean_c, least_c, most_c, order, bias, scale, hysteresis_arcsec_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::ModeSegment, mode, time_s, known_s, rate_arcsec_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::SwitchAngle, time_s, mode_after, error_arcsec);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::SwitchStatistics, n, mean_arcsec, mean_sigma_arcsec, mean_by_mode_arcsec,

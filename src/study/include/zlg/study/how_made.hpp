@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <zlg/config/config.hpp>
 #include <zlg/report/page.hpp>
@@ -16,5 +17,10 @@ namespace zlg::study {
 // configuration, or nothing.
 [[nodiscard]] report::Section how_made(std::string_view command, const config::Config& config,
                                        std::string_view inputs = "");
+
+// Of a page that was made of files: the command as it was typed, a line of each file, the mapping (lines of TOML, or
+// nothing), and the settings that are not the defaults.
+[[nodiscard]] report::Section how_made(std::string_view command, const std::vector<std::string>& files,
+                                       std::string_view mapping, const config::Config& config);
 
 }  // namespace zlg::study

@@ -20,7 +20,7 @@ public:
     // A tick that was bridged, or not even that, is none of the rates.
     void take(const core::AngleRow& row, double truth_arcsec = std::numeric_limits<double>::quiet_NaN());
 
-    // The angle, then its error where every tick has its truth.
+    // The angle, with warnings of values that may be no measurements, then its error where every tick has its truth.
     void finish(std::vector<AxisRecord>& axes);
 
     [[nodiscard]] bool empty() const { return axis_.rates_arcsec_s.empty(); }
