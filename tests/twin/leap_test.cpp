@@ -1,3 +1,4 @@
+#include <zlg/chance/address.hpp>
 #include <zlg/twin/leap.hpp>
 #include <zlg/twin/twin.hpp>
 
