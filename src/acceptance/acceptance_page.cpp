@@ -102,7 +102,9 @@ std::string verdict_sentence(const Acceptance& test) {
     if (test.plan.limits.empty())
         return fmt::format("Serial {}: the plan has no limits, so there is no verdict.", test.plan.unit.serial);
     if (failed.empty() && open.empty())
-        return fmt::format("Serial {} passes: all {} limits are met.", test.plan.unit.serial, test.plan.limits.size());
+        return fmt::format(
+            "Serial {} passes: {} met.", test.plan.unit.serial,
+            test.plan.limits.size() == 1 ? "its limit is" : fmt::format("all {} limits are", test.plan.limits.size()));
     std::string text = fmt::format("Serial {} does not pass:", test.plan.unit.serial);
     if (!failed.empty()) text += fmt::format(" {} fail{}", fmt::join(failed, ", "), failed.size() == 1 ? "s" : "");
     if (!open.empty())

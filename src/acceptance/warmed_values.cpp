@@ -22,6 +22,7 @@ namespace {
 constexpr const char* slope = "bias_temperature.deg_h_c";
 constexpr const char* hysteresis = "bias_hysteresis.deg_h";
 constexpr const char* settling = "warm_up.s";
+constexpr double significant = 4.0;  // standard deviations, as of the bend of a magnetic drift
 constexpr const char* sensitivity = "magnetic_sensitivity.deg_h_mt";
 
 // Rate and temperature, as means over a stretch of the run.
@@ -121,8 +122,12 @@ Warming warming_of(const std::vector<Point>& course, double tau_s) {
     return {c[0], c[1], tau_s, (y - laws * c).squaredNorm()};
 }
 
-// The covariance of a, b and tau at the solution, and from it the error of t = tau ln(|a|/band).
-double settling_sigma(const std::vector<Point>& course, const Warming& w, double band) {
+// The errors of a and of t = tau ln(|a|/band), from the covariance of a, b and tau at the solution.
+struct WarmingError {
+    double a = 0.0, time_s = 0.0;
+};
+
+WarmingError error_of(const std::vector<Point>& course, const Warming& w, double band) {
     Eigen::MatrixX3d j(std::ssize(course), 3);
     for (Eigen::Index k = 0; k < j.rows(); ++k) {
         const double t = course[static_cast<std::size_t>(k)].time_s, e = std::exp(-t / w.tau_s);
@@ -131,7 +136,7 @@ double settling_sigma(const std::vector<Point>& course, const Warming& w, double
     const double variance = w.residual / static_cast<double>(j.rows() - 3);
     const Eigen::Matrix3d covariance = (j.transpose() * j).inverse() * variance;
     const Eigen::Vector3d gradient{w.tau_s / w.a, 0.0, std::log(std::max(1.0, std::abs(w.a) / band))};
-    return std::sqrt(gradient.dot(covariance * gradient));
+    return {std::sqrt(covariance(0, 0)), std::sqrt(gradient.dot(covariance * gradient))};
 }
 
 }  // namespace
@@ -194,21 +199,28 @@ Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
     const std::vector<Point> course = course_of(record);
     if (course.size() < 8) return refuse("needs eight means over the run");
     found.figures.push_back(course_figure(record, course, "Warming", false));
-    const double length_s = course.back().time_s;
+    const double length_s = course.back().time_s, band = plan.warm_up_band_deg_h;
     const auto left = [&](double log_tau) { return warming_of(course, std::exp(log_tau)).residual; };
-    const Warming w = warming_of(
-        course, std::exp(numeric::scanned_minimum(left, std::log(length_s / 100.0), std::log(3.0 * length_s), 60).at));
-    const double band = plan.warm_up_band_deg_h;
-    Value v{.name = settling,
-            .determined = true,
-            .value = w.tau_s * std::log(std::max(1.0, std::abs(w.a) / band)),
-            .uncertainty = settling_sigma(course, w, band),
-            .degrees = static_cast<double>(course.size()) - 3.0,
-            .hours = length_s / 3600.0};
-    if (!std::isfinite(v.uncertainty)) return refuse("the bias does not change by more than its noise");
-    if (v.value + v.uncertainty > length_s) return refuse("needs a longer run: the bias has not settled within it");
-    v.reason = fmt::format("bias b + a exp(-t/tau), a = {} deg/h, tau = {} s", report::short_number(w.a),
-                           report::short_number(w.tau_s));
+    const double log_tau = numeric::scanned_minimum(left, std::log(length_s / 100.0), std::log(length_s), 60).at;
+    const Warming w = warming_of(course, std::exp(log_tau));
+    const WarmingError error = error_of(course, w, band);
+    Value v{.name = settling, .determined = true, .value = 0.0, .uncertainty = 0.0, .law = Law::without_error};
+    v.hours = length_s / 3600.0;
+    const bool bends = std::abs(w.a) > significant * error.a;
+    if (!bends && !(std::abs(w.a) + significant * error.a < band))
+        return refuse("the bias does not bend by more than its noise, and that is more than the band");
+    if (bends) {
+        v.value = w.tau_s * std::log(std::max(1.0, std::abs(w.a) / band));
+        v.uncertainty = error.time_s;
+        v.degrees = static_cast<double>(course.size()) - 3.0;
+        v.law = Law::student;
+        if (!(v.value + v.uncertainty < length_s))
+            return refuse("needs a longer run: the bias has not settled within it");
+        v.reason = fmt::format("bias b + a exp(-t/tau), a = {} deg/h, tau = {} s", report::short_number(w.a),
+                               report::short_number(w.tau_s));
+    } else {
+        v.reason = "the bias changes by less than the band";
+    }
     found.values.push_back(std::move(v));
     return found;
 }

@@ -109,6 +109,16 @@ TEST(Accept, warming_takes_until_it_is_within_the_band) {
               std::string::npos);
 }
 
+TEST(Accept, a_gyro_that_does_not_warm_is_ready_where_its_noise_shows_that) {
+    write("cold.csv", {white(36000, 1.0)});
+    const auto of_band = [](const char* band) {
+        return of(accepted(run("warm_up", "cold.csv"), "", fmt::format("warm_up_band_deg_h = {}\n", band)), "warm_up.s")
+            .value;
+    };
+    EXPECT_EQ(of_band("1").value, 0.0);
+    EXPECT_FALSE(of_band("0.01").determined);
+}
+
 TEST(Accept, a_field_moves_the_bias_by_its_sensitivity) {
     std::string runs;
     for (int k = 0; k < 3; ++k) {
