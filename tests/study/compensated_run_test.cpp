@@ -58,7 +58,7 @@ TEST(CompensatedRun, from_event_to_event_the_errors_have_the_same_law) {
     std::array<double, 2> switch_sq{}, end_sq{};
     std::array<double, 2> n_switches{};
     constexpr int n_gyros = 40;
-    for (const int fidelity : {0, 1}) {
+    for (const std::size_t fidelity : {std::size_t{0}, std::size_t{1}}) {
         for (int gyro = 0; gyro < n_gyros; ++gyro) {
             config::Config c;
             c.run.seed = static_cast<std::uint64_t>(gyro + 1);

@@ -121,7 +121,8 @@ TEST(Leap, noise_of_a_digital_loop_is_that_of_its_halves_summed) {
         double x = noise.sigma_lambda * deviates.back(), sum = 0.0;
         for (int h = 0; h < n_halves; ++h) {
             sum += (h % 2 == 0 ? 1.0 : -1.0) * x * x;
-            x = noise.kept * x + noise.sigma_lambda * std::sqrt(1.0 - noise.kept * noise.kept) * deviates[h];
+            x = noise.kept * x +
+                noise.sigma_lambda * std::sqrt(1.0 - noise.kept * noise.kept) * deviates[static_cast<std::size_t>(h)];
         }
         by_halves += std::pow(sum * 150.0 * config.gyro.bias_chi, 2) / n_gyros;
     }

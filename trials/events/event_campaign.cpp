@@ -104,15 +104,18 @@ struct Measure {
 
 // 0 where neither scatters.
 std::array<double, n_numbers> compared(const std::vector<RunOfGyro>& lived, const std::vector<RunOfGyro>& leapt) {
-    const Measure measure{lived};
+    // The squares of either way are about its own mean.
+    std::array measures{Measure{lived}, Measure{leapt}};
+    measures[1].percentile = measures[0].percentile;
     std::array<double, n_numbers> z{};
     for (std::size_t i = 0; i < n_numbers; ++i) {
-        const auto value = [&](const RunOfGyro& r) { return measure.of(r)[i]; };
+        std::array<double, 2> means{};
         double variance = 0.0;
-        const std::array means{mean_of(lived, value), mean_of(leapt, value)};
         for (std::size_t way = 0; way < 2; ++way) {
             const std::vector<RunOfGyro>& runs = way == 0 ? lived : leapt;
             const auto n = static_cast<double>(runs.size());
+            const auto value = [&](const RunOfGyro& r) { return measures[way].of(r)[i]; };
+            means[way] = mean_of(runs, value);
             variance +=
                 mean_of(runs, [&](const RunOfGyro& r) { return std::pow(value(r) - means[way], 2); }) / (n - 1.0);
         }
