@@ -104,6 +104,8 @@ constexpr std::array kinds{
     Kind{"--give-up", "SECONDS"},
     Kind{"--run-lengths", "SECONDS,..."},
     Kind{"--to", "DEVICE|ADDRESS"},
+    Kind{"--require", "FILE.toml"},
+    Kind{"--rules", "paper"},
     Kind{"--baud", "NUMBER"},
     Kind{"--port", "NUMBER"},
     Kind{"--mapping", "FILE.toml"},
