@@ -163,8 +163,9 @@ void add_design(CLI::App& program) {
     add_config_argument(*verb, *options);
     verb->add_option("--run-lengths", options->run_lengths, "lengths of run, with commas between");
     verb->add_option("--require", options->require,
-                     "what the gyro must keep, TOML: the simplest choice that does, proved on many gyros");
-    verb->add_option("--rules", options->rules, "paper: by the paper's rules alone");
+                     "what the gyro must keep, TOML: the simplest choice that does, proved on many gyros")
+        ->check(is_a_name());
+    verb->add_option("--rules", options->rules, "paper: by the paper's rules alone")->check(is_a_name());
     verb->add_option("--seed", options->seed, "seed of all noise (1)");
     verb->add_option("--threads", options->threads, "1..64 (2)")->check(CLI::Range(1, 64).description(""));
     add_output_options(*verb, *options);
