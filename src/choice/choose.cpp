@@ -65,14 +65,15 @@ public:
     }
 
     void run() {
-        const bool is_met = prove_one();
-        if (!is_met) prove_the_best();
+        const bool is_possible = !most_are_impossible();
+        const bool is_met = is_possible && prove_one();
+        if (is_possible && !is_met) prove_the_best();
         settle();
         answer_.met = is_met;
-        confirm();
+        if (is_possible) confirm();
         if (is_met)
             answer_.runner_up = search_.runner_up(answer_.proof.candidate.method);
-        else
+        else if (is_possible)
             answer_.would_need = needs(task_, answer_.proof.candidate);
         explain(r_, forecast_, search_.all().excluded, answer_);
         report(1.0);
@@ -112,12 +113,28 @@ private:
         });
     }
 
-    bool prove_one() {
-        while (const auto found = search_.next([&] { on_search(); })) {
-            if (!prove(found->candidate, refuted_sigmas)) continue;
-            const auto refused = std::ranges::count(answer_.proof.trials, TrialState::refused, &Trial::state);
-            if (2 * refused < r_.gyros && answer_.proof.share(limit_) >= r_.confidence) return true;
+    // Half of the gyros or more are none by the tolerances, whatever is chosen: nothing is tried then.
+    bool most_are_impossible() {
+        const Population fresh{r_, fresh_seed(r_.base.run.seed, 1), r_.gyros};
+        const Candidate any = candidates(r_, search_.all().all.front()).front();
+        Evaluation drawn{any, {}};
+        for (std::int64_t k = 0; k < r_.gyros; ++k) {
+            try {
+                (void)fresh.gyro(k, any);
+                drawn.trials.push_back({.state = TrialState::untried});
+            } catch (const config::ConfigError& error) {
+                drawn.trials.push_back({.state = TrialState::refused, .reason = error.what()});
+            }
         }
+        const auto refused = std::ranges::count(drawn.trials, TrialState::refused, &Trial::state);
+        if (2 * refused < r_.gyros) return false;
+        answer_.proof = drawn;
+        return true;
+    }
+
+    bool prove_one() {
+        while (const auto found = search_.next([&] { on_search(); }))
+            if (prove(found->candidate, refuted_sigmas) && answer_.proof.share(limit_) >= r_.confidence) return true;
         return false;
     }
 

@@ -12,7 +12,7 @@
 
 namespace zlg::choice {
 
-enum class TrialState { good, lost, refused };
+enum class TrialState { good, lost, refused, untried };
 
 struct Trial {
     TrialState state = TrialState::refused;
