@@ -12,20 +12,18 @@ namespace zlg::twin {
 
 namespace {
 
-// Whether, while a centred mode and its neighbour lase, the neighbour on the other side has gain to spare. Of the holes
-// that take from it only those of the centred mode are counted, which are less.
+// Whether, while a centred mode and its neighbour lase without field, the neighbour on the other side has gain to
+// spare. Of the holes that take from it only those of the centred mode are counted, which are less.
 bool third_mode_lases(const LaserConfig& c) {
     const Gas gas{c};
-    for (const double field_g : {0.0, c.bias_field_g}) {
-        for (const double side : {0.5, -0.5}) {
-            const Balance lit = steady_state(gas.at(0.0, -side, gas.shift_of(field_g)).competition);
-            const Competition beyond = gas.at(0.0, side, gas.shift_of(field_g)).competition;
-            for (const unsigned i : {2U, 3U}) {
-                double spare = beyond.net_gain[i];
-                for (unsigned j = 0; j < 2; ++j)
-                    if (lit.lit >> j & 1U) spare -= beyond.saturation[i][j] * lit.value[j];
-                if (!(spare < 0.0)) return true;
-            }
+    for (const double side : {0.5, -0.5}) {
+        const Balance lit = steady_state(gas.at(0.0, -side, 0.0).competition);
+        const Competition beyond = gas.at(0.0, side, 0.0).competition;
+        for (const unsigned i : {2U, 3U}) {
+            double spare = beyond.net_gain[i];
+            for (unsigned j = 0; j < 2; ++j)
+                if (lit.lit >> j & 1U) spare -= beyond.saturation[i][j] * lit.value[j];
+            if (!(spare < 0.0)) return true;
         }
     }
     return false;
