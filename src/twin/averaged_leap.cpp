@@ -30,8 +30,8 @@ struct AveragedGyro::Drifts {
     int helicity = 1;
 };
 
-// What a piezo with a memory, a sensor that lags, or a fault, does to a half follows from all halves before it. A course of
-// the temperature or of a field has no integral here.
+// What a piezo with a memory, a sensor that lags, or a fault, does to a half follows from all halves before it. A
+// course of the temperature or of a field has no integral here.
 std::int64_t AveragedGyro::quiet_halves() {
     const PiezoConfig& z = config_.piezo;
     const TemperatureConfig& t = config_.temperature;

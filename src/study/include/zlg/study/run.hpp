@@ -59,7 +59,7 @@ struct RunResult {
 struct RunTask {
     config::Config config;
     std::optional<twin::Motion> motion{};  // in place of that of the configuration
-    std::vector<std::string> warnings{};  // of the configuration, for the result
+    std::vector<std::string> warnings{};   // of the configuration, for the result
     int threads = 1;
     // Names of the variants that are computed beside `configured`, one_mode and magnetic_estimate among them; unset:
     // all. A run of `configured` alone costs a fraction. What is computed has the same bits whatever else is.
