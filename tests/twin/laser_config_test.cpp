@@ -68,11 +68,11 @@ TEST(LaserConfig, ARefusalTellsMemberValueAndWhatIsAllowed) {
 // without light reaches it at 1.189, 1.087 and 1.027.
 TEST(LaserConfig, GainForAThirdModeBesideTheLightOfTheNearestIsRefused) {
     const std::tuple<double, double, const char*> rings[] = {
-        {0.28, 1.254, "1.25"}, {0.40, 1.116, "1.11"}, {0.70, 1.042, "1.04"}};
+        {0.28, 1.2965, "1.29"}, {0.40, 1.1312, "1.13"}, {0.70, 1.0491, "1.04"}};
     for (const auto& [perimeter_m, limit, text] : rings) {
-        LaserConfig config{.perimeter_m = perimeter_m, .gain_loss_ratio = limit - 0.003};
+        LaserConfig config{.perimeter_m = perimeter_m, .gain_loss_ratio = limit - 0.001};
         EXPECT_EQ(refusal(config), "");
-        config.gain_loss_ratio = limit + 0.002;
+        config.gain_loss_ratio = limit + 0.001;
         EXPECT_NE(refusal(config).find(std::string{"allowed is below "} + text), std::string::npos) << refusal(config);
     }
 }
