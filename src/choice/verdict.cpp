@@ -57,7 +57,9 @@ std::vector<std::pair<std::string, double>> budget_of(const Requirement& r, Fore
 
 std::string binding_of(const Requirement& r, const Answer& answer) {
     const auto n = static_cast<double>(answer.proof.trials.size());
-    if (static_cast<double>(answer.refused) > (1.0 - r.confidence) * n) return "tolerances that make no gyro";
+    if (2.0 * static_cast<double>(answer.refused) >= n ||
+        static_cast<double>(answer.refused) > (1.0 - r.confidence) * n)
+        return "tolerances that make no gyro";
     if (static_cast<double>(answer.lost) > (1.0 - r.confidence) * n) return "switches that fail";
     return std::max_element(answer.parts.begin(), answer.parts.end() - 1,
                             [](const Part& a, const Part& b) { return a.rms_arcsec < b.rms_arcsec; })
