@@ -141,7 +141,7 @@ def run(
     """
     used, contradictions = resolved(config)
     if angles is None:
-        angles = used.gyro.fidelity != "events"
+        angles = (config or Config()).gyro.fidelity != "events"
     result = _zlg.run(used, contradictions, raw, angles, page, threads, progress)
     if raw:
         result["raw"].update(settings=used.settings(), timer_hz=_zlg.timer_hz)
