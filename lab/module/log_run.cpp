@@ -113,7 +113,8 @@ void LogRun::take_axis(const logs::ImportedAxis& axis, std::span<const std::stri
     append(notes_, axis.warnings);
     notes_.push_back(fmt::format("{}, {}", axis.name, axis.holds));
     config_ = layered({{"gyro.tick_s", fmt::format("{}", 1.0 / axis.rate_hz)}}, name_, settings, false);
-    rows_ = logs::angle_rows(axis);
+    rows_.clear();
+    logs::angle_rows(axis, [&](const core::AngleRow& row) { rows_.push_back(row); });
 }
 
 bool LogRun::advance(std::int64_t rows) {
