@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <boost/math/distributions/binomial.hpp>
 
 #include <zlg/acceptance/accept.hpp>
 #include <zlg/chance/draw.hpp>
@@ -164,10 +163,15 @@ void own_trial(const AcceptCampaignTask& task, int k, AcceptCampaign& campaign) 
     }
 }
 
+// Whether so many wrong ones of n, or more, are no rarer than 1 in 1000 by the binomial law, summed from none on.
 bool keeps(int n, int wrong, double risk) {
-    if (n == 0 || wrong == 0) return true;
-    const boost::math::binomial law(n, risk);
-    return boost::math::cdf(boost::math::complement(law, wrong - 1)) > 1e-3;
+    double term = 1.0, fewer = 0.0;
+    for (int k = 0; k < n; ++k) term *= 1.0 - risk;
+    for (int k = 0; k < wrong; ++k) {
+        fewer += term;
+        term *= (n - k) * risk / ((k + 1) * (1.0 - risk));
+    }
+    return wrong == 0 || 1.0 - fewer > 1e-3;
 }
 
 }  // namespace
