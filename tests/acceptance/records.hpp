@@ -1,6 +1,8 @@
 #pragma once
 // Records at rest and in motion as files, with a plan beside them.
 
+#include <unistd.h>
+
 #include <string>
 #include <vector>
 
@@ -13,8 +15,9 @@
 
 namespace zlg::acceptance_test {
 
+// Of this process: tests run side by side.
 inline std::string folder() {
-    const std::string name = testing::TempDir() + "zlg_acceptance_test/";
+    const std::string name = testing::TempDir() + fmt::format("zlg_acceptance_test_{}/", ::getpid());
     std::filesystem::create_directories(name);
     return name;
 }

@@ -200,7 +200,7 @@ TEST(PaperPage, has_a_section_for_every_item_and_one_for_the_claims) {
     const report::Page page = paper::paper_page(paper());
     ASSERT_EQ(page.sections.size(), paper().items.size() + 2) << "the claims before them, how it was made after";
     EXPECT_FALSE(page.numbered) << "the numbers are those of the print";
-    EXPECT_EQ(page.verdict.find("Of 53 claims of the paper 21 agree"), 0u) << page.verdict;
+    EXPECT_EQ(page.verdict.find("Of 54 claims of the paper 22 agree"), 0u) << page.verdict;
     const auto& claims = page.sections.front().tables.at(0);
     EXPECT_EQ(claims.rows.size(), paper().claims.size());
     EXPECT_GT(claims.rows.size(), 20u);

@@ -14,7 +14,7 @@ double usual_step(std::span<const double> values, double share, double (*of)(dou
     const std::uint64_t n = values.size() < 2 ? 0 : values.size() - 1;
     std::vector<double> steps;
     for (std::uint64_t i = 0; i < std::min(n, most); ++i) {
-        const std::size_t k = n <= most ? i : i * stride % n;
+        const auto k = static_cast<std::size_t>(n <= most ? i : i * stride % n);
         if (const double step = of(values[k + 1] - values[k]); !std::isnan(step)) steps.push_back(step);
     }
     if (steps.empty()) return std::numeric_limits<double>::quiet_NaN();
