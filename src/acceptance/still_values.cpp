@@ -10,6 +10,7 @@
 #include <zlg/noise/noise_terms.hpp>
 #include <zlg/study/term_text.hpp>
 
+#include "mean_error.hpp"
 #include "values.hpp"
 
 namespace zlg::acceptance {
@@ -28,24 +29,15 @@ double known_s(const AxisResult& axis) { return static_cast<double>(axis.n_known
 // Of a coefficient with this relative standard error, as a standard deviation with so many degrees of freedom has it.
 double degrees_of(double relative) { return 0.5 / (relative * relative); }
 
-// What each fitted term lets a mean over T differ by, and to how many degrees of freedom that is known, put together by
-// Welch and Satterthwaite: (sum v)^2/sum(v^2/degrees).
-double mean_degrees(const AxisResult& axis) {
-    if (!axis.fit || !axis.fit->describes) return axis.allan.points.empty() ? 1.0 : axis.allan.points.back().law.edf;
-    double sum = 0.0, squares = 0.0;
-    for (const FittedTerm& term : axis.fit->fitted) {
-        NoiseTerms one;
-        if (!term.found || term.kind == NoiseKind::ramp || term.kind == NoiseKind::sine) continue;
-        if (term.kind == NoiseKind::quantisation) one.quantisation_arcsec = term.value;
-        if (term.kind == NoiseKind::angle_random_walk) one.angle_random_walk_arcsec_sqrt_s = term.value;
-        if (term.kind == NoiseKind::bias_instability) one.bias_instability_arcsec_s = term.value;
-        if (term.kind == NoiseKind::rate_random_walk) one.rate_random_walk_arcsec_s_sqrt_s = term.value;
-        if (term.kind == NoiseKind::markov) one.markov = {{term.value, term.second}};
-        const double v = noise::allan_variance(one, known_s(axis));
-        sum += v;
-        squares += v * v / degrees_of(term.sigma / term.value);
-    }
-    return squares > 0.0 ? sum * sum / squares : 1.0;
+// Of the stretches of the record; a sinusoid that was found is in them, and is no noise.
+MeanError error_of_mean(const AxisResult& axis) {
+    std::vector<double> means, half_periods;
+    for (const study::TimeBin& bin : axis.time_bins) means.push_back(bin.mean_arcsec_s);
+    const double span_s = static_cast<double>(axis.n_samples) / axis.rate_hz;
+    if (axis.fit)
+        for (const noise::SineTerm& sine : axis.fit->terms.sines)
+            half_periods.push_back(2.0 * span_s * sine.frequency_hz);
+    return mean_error(means, half_periods);
 }
 
 // The fitted noise at another length of the record.
@@ -157,11 +149,12 @@ Value noise_value(const char* name, NoiseKind kind, const StillAxis& of) {
 
 Value bias_of(const Plan& plan, const StillAxis& of) {
     const AxisResult& axis = of.result;
+    const MeanError error = error_of_mean(axis);
     Value v{.name = "bias.deg_h",
             .determined = true,
             .value = axis.mean_arcsec_s,
-            .uncertainty = axis.mean_sigma_arcsec_s,
-            .degrees = mean_degrees(axis)};
+            .uncertainty = error.sigma,
+            .degrees = error.degrees};
     v.hours = known_s(axis) / 3600.0;
     v.uncertainty_after = mean_sigma_after(axis);
     if (axis.modes && axis.modes->segments.size() > 1) {

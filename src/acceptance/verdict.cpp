@@ -37,12 +37,12 @@ std::optional<Verdict> verdict_of(const Value& v, const Limit& limit, double ris
     return 1.0 - p <= risk ? Verdict::fail : Verdict::undecided;
 }
 
-// What the same value would be known to after another time.
+// What the same value would be known to after another time. Of noise that was fitted it stays as little known.
 Value after(const Value& v, double hours) {
     Value later = v;
     const double longer = hours / v.hours;
     later.hours = hours;
-    later.degrees = v.degrees * longer;
+    if (!v.uncertainty_after) later.degrees = v.degrees * longer;
     later.uncertainty = v.uncertainty_after ? v.uncertainty * v.uncertainty_after(hours) / v.uncertainty_after(v.hours)
                                             : v.uncertainty / std::sqrt(longer);
     return later;

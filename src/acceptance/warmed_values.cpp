@@ -229,6 +229,7 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
     Found found;
     std::vector<std::array<double, 3>> runs;  // field, bias, weight
     double weights = 0.0, field = 0.0, rate = 0.0, hours = 0.0;
+    double degrees = std::numeric_limits<double>::infinity();  // those of the run that knows its error least
     report::Series points = report::blank_series("runs", report::Mark::points);
     for (const StillAxis& axis : in_field) {
         const Value bias = bias_of(plan, axis);
@@ -239,6 +240,7 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
         field += weight * axis.run->field_mt;
         rate += weight * bias.value;
         hours += bias.hours;
+        degrees = std::min(degrees, bias.degrees);
         report::add_point(points, axis.run->field_mt, bias.value);
         points.y_error.push_back(2.0 * bias.uncertainty);
     }
@@ -259,14 +261,15 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
                             .determined = true,
                             .value = xy / xx,
                             .uncertainty = 1.0 / std::sqrt(xx),
+                            .degrees = degrees,
                             .hours = hours});
-    if (const double degrees = static_cast<double>(runs.size()) - 2.0; degrees > 0.0) {
-        const double left = std::sqrt(squares / degrees);
+    if (const double free = static_cast<double>(runs.size()) - 2.0; free > 0.0) {
+        const double left = std::sqrt(squares / free);
         found.values.push_back({.name = "magnetic_residual.deg_h",
                                 .determined = true,
                                 .value = left,
-                                .uncertainty = left / std::sqrt(2.0 * degrees),
-                                .degrees = degrees,
+                                .uncertainty = left / std::sqrt(2.0 * free),
+                                .degrees = free,
                                 .law = Law::chi,
                                 .hours = hours});
     }

@@ -130,8 +130,11 @@ TEST(Accept, a_field_moves_the_bias_by_its_sensitivity) {
     const auto test = accepted(runs);
     const auto& slope = of(test, "magnetic_sensitivity.deg_h_mt").value;
     EXPECT_LT(std::abs(slope.value - 2.0), 4.0 * slope.uncertainty);
-    // 1/sqrt(6000) each, at -0.1, 0 and 0.1 mT.
-    EXPECT_NEAR(slope.uncertainty, 1.0 / std::sqrt(6000.0) / std::sqrt(0.02), 0.02);
+    // 1/sqrt(6000) each, at -0.1, 0 and 0.1 mT, and what slow noise may hide under the white noise.
+    const double white_alone = 1.0 / std::sqrt(6000.0) / std::sqrt(0.02);
+    EXPECT_GT(slope.uncertainty, white_alone);
+    EXPECT_LT(slope.uncertainty, 3.0 * white_alone);
+    EXPECT_LT(slope.degrees, 10.0);
     EXPECT_EQ(of(test, "magnetic_residual.deg_h").value.degrees, 1.0);
 }
 

@@ -132,6 +132,7 @@ void own_trial(const AcceptCampaignTask& task, int k, AcceptCampaign& campaign) 
     for (const std::string& set : {std::string{"run.duration_s=1800"},
                                    fmt::format("run.seed={}", task.seed * 100000 + static_cast<std::uint64_t>(k)),
                                    std::string{"motion.kind=rest"}, std::string{"drift.magnetic_thermal_arcsec_s=0"},
+                                   fmt::format("gyro.bias_hz={}", draws.of("bias frequency").within(58e3, 62e3)),
                                    fmt::format("piezo.half_wave_v={}", draws.of("half wave").within(38.0, 42.0)),
                                    fmt::format("drift.magnetic_arcsec_s={}", draws.of("magnetic").within(0.4, 1.0))})
         config::apply_set(c, set);
