@@ -16,6 +16,35 @@ def white(n, deviation, mean=0.0, seed=1):
     return np.random.default_rng(seed).normal(mean, deviation, n)
 
 
+def means_of(values, length):
+    return values[: len(values) // length * length].reshape(-1, length).mean(axis=1)
+
+
+# The variance of a record's mean over white noise, walks and flicker, each with its restricted likelihood: src/acceptance/mean_error.hpp.
+def error_of_mean(rates):
+    course = means_of(rates, -(-len(rates) // 1500))
+    means = means_of(course, max(1, len(course) // 64))
+    n, k = len(means), np.arange(1, len(means))
+    squares = 2.0 / n * (np.cos(np.pi / n * np.outer(k, np.arange(n) + 0.5)) @ means) ** 2
+    laws = [(16.0, 0.0, np.ones(n - 1))]
+    for slow in 2.0 ** np.arange(4, 21):
+        laws.append((1.0, slow, 1.0 + 3.0 * slow / n**2 * (0.25 / np.sin(np.pi * k / 2 / n) ** 2 - 1 / 6)))
+        laws.append((0.2, slow, 1.0 + slow / (2.0 * np.log(2.0) * k)))
+    sums = np.array([(squares / shape).sum() for _, _, shape in laws])
+    logs = np.array([np.log(weight) - 0.5 * np.log(shape).sum() for weight, _, shape in laws]) - 0.5 * (n - 1) * np.log(sums)
+    weights = np.exp(logs - logs.max()) / np.exp(logs - logs.max()).sum()
+    variances = (1.0 + np.array([slow for _, slow, _ in laws])) * sums / n
+    variance = (weights * variances).sum() / (n - 3)
+    spread = (weights * variances**2).sum() / ((n - 3) * (n - 5)) / variance**2
+    return math.sqrt(variance), (4.0 * spread - 2.0) / (spread - 1.0)
+
+
+def student_95(degrees):
+    x = np.linspace(0.0, 1000.0, 2_000_001)
+    above = np.cumsum((1.0 + x**2 / degrees) ** (-0.5 * (degrees + 1.0)))
+    return x[np.searchsorted(above, 0.9 * above[-1])]
+
+
 class Accept(CliTest):
     def at(self, name):
         return self.folder / name
@@ -44,7 +73,7 @@ class Accept(CliTest):
         return result.stderr
 
     def test_white_noise_has_its_mean_and_its_angle_random_walk(self):
-        # 3 deg/h a sample at 10 Hz: N = 3/sqrt(10) arcsec/sqrt(s), and the mean of 20000 is known to 3/sqrt(20000).
+        # 3 deg/h a sample at 10 Hz: N = 3/sqrt(10) arcsec/sqrt(s), and the mean of 20000 is known to 3/sqrt(20000) if there is no slow noise.
         rates = white(20000, 3.0, mean=0.5)
         plan = self.plan([self.static(self.rates("a.csv", rates))],
                          '"bias.deg_h" = { min = -1, max = 1 }\n"angle_random_walk.deg_sqrt_h" = { max = 0.02 }\n')
@@ -52,7 +81,10 @@ class Accept(CliTest):
         self.assertTrue(found["passed"])
         bias = quantities["bias.deg_h"]
         self.assertAlmostEqual(bias["value"], rates.mean(), places=12)
-        self.assertAlmostEqual(bias["uncertainty"], 3.0 / math.sqrt(20000), delta=0.05 * 3.0 / math.sqrt(20000))
+        uncertainty, degrees = error_of_mean(rates)
+        self.assertGreater(uncertainty, 3.0 / math.sqrt(20000))
+        self.assertAlmostEqual(bias["uncertainty"], uncertainty, delta=1e-9)
+        self.assertAlmostEqual(bias["degrees_of_freedom"], degrees, delta=1e-6)
         self.assertEqual(bias["verdict"], "pass")
         walk = quantities["angle_random_walk.deg_sqrt_h"]
         self.assertAlmostEqual(walk["value"], 3.0 / math.sqrt(10.0) / 60.0, delta=4.0 * walk["uncertainty"])
@@ -61,11 +93,12 @@ class Accept(CliTest):
         self.assertIsNone(quantities["half_wave.v"]["value"])
 
     def test_a_bias_at_its_limit_is_undecided_and_the_time_that_decides_is_right(self):
-        # 0.8225 uncertainties from the limit: 4 times the time makes that 1.645.
+        # Half a quantile of Student's law from the limit: 4 times the time makes that a whole one.
         rates = white(20000, 3.0)
-        sigma = 3.0 / math.sqrt(20000)
         rates += 0.5 - rates.mean()
-        plan = self.plan([self.static(self.rates("a.csv", rates))], f'"bias.deg_h" = {{ max = {0.5 + 0.8225 * sigma} }}\n')
+        uncertainty, degrees = error_of_mean(rates)
+        limit = 0.5 + 0.5 * student_95(degrees) * uncertainty
+        plan = self.plan([self.static(self.rates("a.csv", rates))], f'"bias.deg_h" = {{ max = {limit} }}\n')
         found, quantities = self.judged(plan, 1)
         self.assertFalse(found["passed"])
         self.assertEqual(quantities["bias.deg_h"]["verdict"], "undecided")
@@ -247,8 +280,8 @@ class Accept(CliTest):
             second = angle[2 * m:] - 2.0 * angle[m:-m] + angle[:-2 * m]
             tau = m / 100.0
             self.assertAlmostEqual(math.sqrt(walk**2 / tau + 3.0 * rounding**2 / tau**2) / math.sqrt(np.mean(second**2) / 2.0 / tau**2), 1.0, delta=0.06)
-        seconds = len(increments) / 100.0
-        self.assertAlmostEqual(quantities["bias.deg_h"]["uncertainty"], math.sqrt(walk**2 / seconds + 3.0 * rounding**2 / seconds**2), places=6)
+        uncertainty, _ = error_of_mean(100.0 * increments)
+        self.assertAlmostEqual(quantities["bias.deg_h"]["uncertainty"], uncertainty, delta=1e-6 * uncertainty)
 
 
 if __name__ == "__main__":
