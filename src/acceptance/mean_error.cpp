@@ -16,7 +16,7 @@ using std::numbers::pi;
 constexpr std::size_t most_means = 64, fewest_means = 8;
 // Of the laws: slow noise gives the variance of the mean 2^k times the part of the white noise, one k an octave.
 constexpr int first_octave = 4, last_octave = 20;
-constexpr double white_weight = 16.0, flicker_weight = 0.2;  // that of a walk is 1
+constexpr double white_weight = 20.0, flicker_weight = 0.2;  // that of a walk is 1
 
 struct Mode {
     double k = 0.0, square = 0.0;

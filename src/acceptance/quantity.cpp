@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -120,6 +121,25 @@ Value not_determined(std::string_view name, std::string reason) {
     value.name = name;
     value.reason = std::move(reason);
     return value;
+}
+
+Value counted(std::string_view name, double value, double hours) {
+    return {.name = std::string{name},
+            .determined = true,
+            .value = value,
+            .uncertainty = 0.0,
+            .law = Law::without_error,
+            .hours = hours};
+}
+
+Value deviation(std::string_view name, double value, double degrees, double hours) {
+    return {.name = std::string{name},
+            .determined = true,
+            .value = value,
+            .uncertainty = value / std::sqrt(2.0 * degrees),
+            .degrees = degrees,
+            .law = Law::chi,
+            .hours = hours};
 }
 
 }  // namespace zlg::acceptance

@@ -18,7 +18,6 @@ struct LogRecord {
     std::string file;  // as the plan names it
     std::string path;
     std::uint64_t checksum = 0;
-    int run = 1;
 };
 
 // What one raw log shows of its switches.

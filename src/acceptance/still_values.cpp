@@ -76,32 +76,6 @@ Scatter scatter_of(const noise::ModeSplit& split) {
     return std::pow(four.sigma / one.sigma, 2) > bound ? four : one;
 }
 
-// Where the runs differ by more than their own noise explains (chi-square), their scatter is the error of the mean;
-// else their noise is.
-Value together(const std::vector<Value>& runs) {
-    Value v = runs.front();
-    if (runs.size() == 1) return v;
-    const auto n = static_cast<double>(runs.size());
-    double within = 0.0, own_degrees = 0.0, scatter = 0.0, tested = 0.0;
-    v.value = v.hours = 0.0;
-    for (const Value& run : runs) v.value += run.value / n, v.hours += run.hours;
-    for (const Value& run : runs) {
-        const double squared = run.uncertainty * run.uncertainty;
-        within += squared;
-        own_degrees += squared * squared / run.degrees;
-        scatter += std::pow(run.value - v.value, 2) / (n - 1.0);
-        tested += std::pow(run.value - v.value, 2) / squared;
-    }
-    const boost::math::chi_squared law(n - 1.0);
-    const bool differ = boost::math::cdf(boost::math::complement(law, tested)) < significance;
-    v.uncertainty = std::sqrt(differ ? scatter / n : within) / (differ ? 1.0 : n);
-    v.degrees = differ ? n - 1.0 : within * within / own_degrees;
-    if (differ) v.uncertainty_after = {};
-    v.reason += fmt::format("{}mean of {} records{}", v.reason.empty() ? "" : ", ", n,
-                            differ ? ", which differ by more than their noise" : "");
-    return v;
-}
-
 Value repeatability_of(const std::vector<Value>& runs) {
     Value v = not_determined("bias_repeatability.deg_h", "needs two static records or more");
     if (runs.size() < 2) return v;
@@ -109,11 +83,7 @@ Value repeatability_of(const std::vector<Value>& runs) {
     const auto n = static_cast<double>(runs.size());
     for (const Value& run : runs) mean += run.value / n, v.hours += run.hours;
     for (const Value& run : runs) squares += std::pow(run.value - mean, 2);
-    v.determined = true;
-    v.law = Law::chi;
-    v.degrees = n - 1.0;
-    v.value = std::sqrt(squares / v.degrees);
-    v.uncertainty = v.value / std::sqrt(2.0 * v.degrees);
+    v = deviation(v.name, std::sqrt(squares / (n - 1.0)), n - 1.0, v.hours);
     v.reason = fmt::format("of {} records, their noise included", runs.size());
     return v;
 }
@@ -146,6 +116,30 @@ Value noise_value(const char* name, NoiseKind kind, const StillAxis& of) {
 }
 
 }  // namespace
+
+Value together(const std::vector<Value>& runs) {
+    Value v = runs.front();
+    if (runs.size() == 1) return v;
+    const auto n = static_cast<double>(runs.size());
+    double within = 0.0, own_degrees = 0.0, scatter = 0.0, tested = 0.0;
+    v.value = v.hours = 0.0;
+    for (const Value& run : runs) v.value += run.value / n, v.hours += run.hours;
+    for (const Value& run : runs) {
+        const double squared = run.uncertainty * run.uncertainty;
+        within += squared;
+        own_degrees += squared * squared / run.degrees;
+        scatter += std::pow(run.value - v.value, 2) / (n - 1.0);
+        tested += std::pow(run.value - v.value, 2) / squared;
+    }
+    const boost::math::chi_squared law(n - 1.0);
+    const bool differ = boost::math::cdf(boost::math::complement(law, tested)) < significance;
+    v.uncertainty = std::sqrt(differ ? scatter / n : within) / (differ ? 1.0 : n);
+    v.degrees = differ ? n - 1.0 : within * within / own_degrees;
+    if (differ) v.uncertainty_after = {};
+    v.reason += fmt::format("{}mean of {} records{}", v.reason.empty() ? "" : ", ", n,
+                            differ ? ", which differ by more than their noise" : "");
+    return v;
+}
 
 Value bias_of(const Plan& plan, const StillAxis& of) {
     const AxisResult& axis = of.result;

@@ -31,15 +31,6 @@ Value mean_value(const char* name, const Mean& mean, double hours, double step, 
             .hours = hours};
 }
 
-Value counted(const char* name, double value, double hours) {
-    return {.name = name,
-            .determined = true,
-            .value = value,
-            .uncertainty = 0.0,
-            .law = Law::without_error,
-            .hours = hours};
-}
-
 // At rest the rotation over a switch is that of the segments beside it.
 Value error_value(const std::vector<StillAxis>& axes, double hours) {
     double n = 0.0, squares = 0.0;
@@ -51,14 +42,7 @@ Value error_value(const std::vector<StillAxis>& axes, double hours) {
     }
     constexpr const char* name = "switch_error.arcsec";
     if (n < 2.0) return not_determined(name, "needs a static raw log with two switches or more");
-    const double rms = std::sqrt(squares / n);
-    return {.name = name,
-            .determined = true,
-            .value = rms,
-            .uncertainty = rms / std::sqrt(2.0 * n),
-            .degrees = n,
-            .law = Law::chi,
-            .hours = hours};
+    return deviation(name, std::sqrt(squares / n), n, hours);
 }
 
 }  // namespace

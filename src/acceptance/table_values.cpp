@@ -68,33 +68,6 @@ double as_found(const numeric::Estimate& e, double degrees) {
     return degrees >= 3.0 ? e.sigma * std::sqrt((degrees - 2.0) / degrees) : e.sigma;
 }
 
-Value of_mean(const char* name, const std::vector<Value>& each) {
-    Value v = each.front();
-    const auto n = static_cast<double>(each.size());
-    double variance = 0.0, mean = 0.0, hours = 0.0;
-    for (const Value& one : each) {
-        mean += one.value / n;
-        variance += one.uncertainty * one.uncertainty / (n * n);
-        hours += one.hours;
-    }
-    v.name = name;
-    v.value = mean;
-    v.uncertainty = std::sqrt(variance);
-    v.degrees *= n;
-    v.hours = hours;
-    return v;
-}
-
-Value deviation(const char* name, double value, double degrees, double hours) {
-    return {.name = name,
-            .determined = true,
-            .value = value,
-            .uncertainty = value / std::sqrt(2.0 * degrees),
-            .degrees = degrees,
-            .law = Law::chi,
-            .hours = hours};
-}
-
 // The smallest rate at which the gyro shows at least half of it, where it does at all larger ones. The zero of the line
 // is subtracted; a stage whose noise leaves that open does not count.
 Value threshold_of(const Turned& of) {
@@ -104,19 +77,14 @@ Value threshold_of(const Turned& of) {
     double least = 0.0;
     for (const TableStage& s : stages) {
         const double input = s.input_arcsec_s, shown = s.output / k - zero;
-        if (input == 0.0 || std::abs(input) < 2.0 * s.output_sigma) break;
-        if (shown / input < 0.5) break;
+        if (input == 0.0 || std::abs(input) < 2.0 * s.output_sigma || shown / input < 0.5) break;
         least = std::abs(input);
     }
     if (least == 0.0)
         return not_determined(threshold, "needs stages of small rates, each long enough to be told from 0");
-    return {.name = threshold,
-            .determined = true,
-            .value = least,
-            .uncertainty = 0.0,
-            .law = Law::without_error,
-            .hours = of.hours,
-            .reason = "smallest rate of a stage at which the gyro showed half of it or more: an upper bound"};
+    Value v = counted(threshold, least, of.hours);
+    v.reason = "smallest rate of a stage at which the gyro showed half of it or more: an upper bound";
+    return v;
 }
 
 report::Figure residual_figure(const Turned& of, std::size_t index) {
@@ -195,10 +163,9 @@ Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, con
         hours += t.hours;
         found.figures.push_back(residual_figure(t, found.figures.size()));
     }
-    found.values.push_back(of_mean(scale, scales));
+    found.values.push_back(together(scales));
     found.values.push_back(deviation(nonlinearity, std::sqrt(squares / degrees), degrees, hours));
-    found.values.push_back(asymmetries.empty() ? not_determined(asymmetry, symmetric)
-                                               : of_mean(asymmetry, asymmetries));
+    found.values.push_back(asymmetries.empty() ? not_determined(asymmetry, symmetric) : together(asymmetries));
     if (scales.size() < 2) {
         found.values.push_back(not_determined(repeatability, "needs two rate tables or more"));
     } else {

@@ -24,6 +24,10 @@ struct StillAxis {
 // stops  gets a line where the Earth turns the wrong way.
 [[nodiscard]] std::vector<Value> still_values(const Plan& plan, const std::vector<StillAxis>& axes);
 
+// The mean of one quantity over runs. Where they differ by more than their own noise explains (chi-square), their
+// scatter is the error of the mean; else their noise is.
+[[nodiscard]] Value together(const std::vector<Value>& runs);
+
 // Mean rate at rest, or non-magnetic drift, with what the noise lets it differ by.
 [[nodiscard]] Value bias_of(const Plan& plan, const StillAxis& of);
 

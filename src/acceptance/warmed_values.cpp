@@ -204,8 +204,7 @@ Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
     const double log_tau = numeric::scanned_minimum(left, std::log(length_s / 100.0), std::log(length_s), 60).at;
     const Warming w = warming_of(course, std::exp(log_tau));
     const WarmingError error = error_of(course, w, band);
-    Value v{.name = settling, .determined = true, .value = 0.0, .uncertainty = 0.0, .law = Law::without_error};
-    v.hours = length_s / 3600.0;
+    Value v = counted(settling, 0.0, length_s / 3600.0);
     const bool bends = std::abs(w.a) > significant * error.a;
     if (!bends && !(std::abs(w.a) + significant * error.a < band))
         return refuse("the bias does not bend by more than its noise, and that is more than the band");
@@ -264,14 +263,7 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
                             .degrees = degrees,
                             .hours = hours});
     if (const double free = static_cast<double>(runs.size()) - 2.0; free > 0.0) {
-        const double left = std::sqrt(squares / free);
-        found.values.push_back({.name = "magnetic_residual.deg_h",
-                                .determined = true,
-                                .value = left,
-                                .uncertainty = left / std::sqrt(2.0 * free),
-                                .degrees = free,
-                                .law = Law::chi,
-                                .hours = hours});
+        found.values.push_back(deviation("magnetic_residual.deg_h", std::sqrt(squares / free), free, hours));
     }
     return found;
 }

@@ -26,7 +26,7 @@ def error_of_mean(rates):
     means = means_of(course, max(1, len(course) // 64))
     n, k = len(means), np.arange(1, len(means))
     squares = 2.0 / n * (np.cos(np.pi / n * np.outer(k, np.arange(n) + 0.5)) @ means) ** 2
-    laws = [(16.0, 0.0, np.ones(n - 1))]
+    laws = [(20.0, 0.0, np.ones(n - 1))]
     for slow in 2.0 ** np.arange(4, 21):
         laws.append((1.0, slow, 1.0 + 3.0 * slow / n**2 * (0.25 / np.sin(np.pi * k / 2 / n) ** 2 - 1 / 6)))
         laws.append((0.2, slow, 1.0 + slow / (2.0 * np.log(2.0) * k)))
