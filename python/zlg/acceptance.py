@@ -9,7 +9,7 @@ from typing import Any, Optional
 
 from . import _zlg
 from ._columns import Progress, made_of
-from ._shown import Shown, table_html
+from ._shown import Shown
 from .config import Config, checked
 from .logs import Path
 
@@ -66,10 +66,6 @@ class Acceptance(Shown):
     def write(self, path: Path, force: bool = False) -> None:
         """Write the page. Raises IoError; a file is not overwritten without `force`."""
         _zlg.write_text(os.fspath(path), self.html, force)
-
-    def _repr_html_(self) -> str:
-        rows = [[q.name, str(q.value), str(q.uncertainty), str(q.limit), str(q.verdict)] for q in self.quantities]
-        return table_html(str(self.unit["serial"]), ["quantity", "value", "+-", "limit", "verdict"], rows)
 
 
 def accept(plan: Path, config: Optional[Config] = None, *, threads: int = 1, progress: Progress = None) -> Acceptance:
