@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <zlg/calibration/rate_table.hpp>
+#include <zlg/config/schema.hpp>
 #include <zlg/deviations/series.hpp>
 #include <zlg/report/number_text.hpp>
 
