@@ -16,8 +16,9 @@ namespace zlg::lab {
 namespace {
 
 // In the order of config::ValueKind.
-constexpr std::array<const char*, 10> kind_names{"real",   "optional_real",   "integer", "text",     "reals",
-                                                 "choice", "optional_choice", "choices", "interval", "column"};
+constexpr std::array<const char*, 11> kind_names{"real",     "optional_real", "integer",         "text",
+                                                 "reals",    "choice",        "optional_choice", "choices",
+                                                 "interval", "column",        "points"};
 
 // The texts of the table hold no control characters.
 std::string json_text(std::string_view text) {
