@@ -84,7 +84,7 @@ export class LogView {
     private say(text: string, state: string): void {
         element("log-text").textContent = text;
         element("card-log").dataset.state = state;
-        element("log-as-motion").hidden = state !== "refused";
+        element("log-as-motion").hidden = state === "reading";
         element("log-work").hidden = state !== "reading";
         element("log-text").classList.toggle("wrong", state === "refused");
         element<HTMLButtonElement>("log-again").disabled = state === "reading";

@@ -81,7 +81,7 @@ class Motions(LivingPageCase):
         data = {"items": [], "files": [str(path)], "dragOperationsMask": 1}
         for kind in ("dragEnter", "dragOver", "drop"):
             self.browser.send("Input.dispatchDragEvent", type=kind, x=600, y=300, data=data)
-        self.browser.wait_until(lambda: self.browser.value("document.getElementById('card-log').dataset.state") == "refused")
+        self.browser.wait_until(lambda: self.browser.value("document.getElementById('log-as-motion').offsetParent !== null"))
         self.browser.press("#log-as-motion")
         self.browser.wait_until(lambda: "100 rows" in self.browser.text("#motion-text"))
         self.browser.wait_for_state("done")
