@@ -12,7 +12,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/replay.hpp>
-#include <zlg/study/tick_rates.hpp>
+#include <zlg/study/axis_records.hpp>
 
 #include "failure.hpp"
 #include "mapping_input.hpp"
@@ -35,7 +35,7 @@ config::Config read_angles(const Options& options, const std::string& path, std:
     for (const std::string& warning : reader.header().warnings) complain("warning: " + warning);
     const config::Config config = load_log_config(options, reader.header().settings, path, LogFacts::tick);
     note_former_keys(reader.header().settings, path);
-    study::TickRates ticks(name_of_file(path), path, config.gyro.tick_s);
+    study::TickRates ticks(path, config.gyro.tick_s);
     logs::TimedAngle angle;
     Progress progress;
     double first_s = missing;
@@ -56,7 +56,7 @@ config::Config read_raw(const Options& options, const std::string& path, std::ve
     logs::RawReader raw = open_raw(options, path);
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
     const recorded::LogCompensation asked = log_compensation(options, raw.header(), path);
-    study::TickRates ticks(name_of_file(path), path, asked.config.gyro.tick_s);
+    study::TickRates ticks(path, asked.config.gyro.tick_s);
     rig::Replay replay{asked.compensation};
     const auto take = [&](const core::AngleRow& row) { ticks.take(row); };
     core::HalfRecord record;
@@ -109,16 +109,8 @@ config::Config read_mapped(const Options& options, const std::string& path, cons
     note_all(path, look.said);
     note_all(path, imported.notes);
     for (logs::ImportedAxis& from : imported.axes) {
-        study::AxisRecord axis;
-        axis.name = fmt::format("{}, {}", name_of_file(path), from.name);
-        axis.group = path;
-        axis.holds = from.holds;
-        axis.rate_hz = from.rate_hz;
-        axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
-        axis.phase_arcsec = std::move(from.phase_arcsec);
-        axis.mode = std::move(from.mode);
+        study::AxisRecord axis = study::axis_of(path, std::move(from));
         axis.temperature_c = imported.temperature_c;
-        axis.warnings = std::move(from.warnings);
         const bool is_turned = !imported.table_rates_arcsec_s.empty();
         if (is_turned) input.tables.push_back(table_test(config.analysis, axis, imported.table_rates_arcsec_s));
         note_all(path, is_turned ? input.tables.back().warnings : axis.warnings);

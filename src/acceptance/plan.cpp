@@ -152,14 +152,11 @@ Run run_of(const At& at, const Unit& unit) {
                     {"stages", [&](const At& v) { run.stages = stages_of(v); }},
                     {"serial", [&](const At& v) { run.serial = v.words(); }},
                     {"field_mt", [&](const At& v) { run.field_mt = v.real(-1e3, 1e3); }},
-                    {"temperature_c", [&](const At& v) { run.temperature = v.words(); }},
                     {"axis", [&](const At& v) { axis.emplace(v), run.axis = v.words(); }},
                     {"column", [&](const At& v) { map_to(run, v, "axis"); }}};
     read_keys(at, keys, [&](const At& v, std::string_view key) { map_to(run, v, key); });
     if (!has_kind) at.fail(fmt::format("kind is missing; allowed is {}", fmt::join(kinds, ", ")));
     if (run.files.empty()) at.fail("files is missing: a run needs its logs");
-    if (run.mapping.has("counts") && !run.temperature.empty())
-        run.mapping.set("temperature_c", run.temperature, at.place());
     // A word that is no direction is the column of a file of another program.
     if (axis && !earth_about({.latitude_deg = 0.0}, run.axis) && !run.mapping.has("axis")) map_to(run, *axis, "axis");
     if (unit.scale_arcsec && !run.mapping.has("scale_arcsec") &&

@@ -15,7 +15,7 @@
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/replay.hpp>
-#include <zlg/study/tick_rates.hpp>
+#include <zlg/study/axis_records.hpp>
 #include <zlg/text/escape.hpp>
 
 #include "switch_reader.hpp"
@@ -89,11 +89,18 @@ config::Config log_config(const Plan& plan, const config::Config& said, const lo
     return recorded::config_of_log(over, settings, path, scale_is_used);
 }
 
+// Values that may be no measurements stop the verdicts.
+void finish(study::TickRates& ticks, const std::string& path, RunRecord& record) {
+    const std::size_t first = record.axes.size();
+    ticks.finish(record.axes);
+    add(record.stops, path, record.axes[first].warnings);
+}
+
 void read_angles(const Plan& plan, const config::Config& said, const std::string& path, RunRecord& record) {
     logs::AngleReader reader{path};
     add(record.notes, path, reader.header().warnings);
     const config::Config config = log_config(plan, said, reader.header().settings, path, false);
-    study::TickRates ticks{file_name(path), path, config.gyro.tick_s};
+    study::TickRates ticks{path, config.gyro.tick_s};
     logs::TimedAngle angle;
     double first_s = 0.0;
     for (bool is_first = true; reader.next(angle); is_first = false) {
@@ -103,7 +110,7 @@ void read_angles(const Plan& plan, const config::Config& said, const std::string
     if (ticks.empty()) throw logs::FormatError{fmt::format("{}: holds no tick", path)};
     study::check_tick(path, config.gyro.tick_s, first_s, angle);
     if (!reader.header().complete) add(record.stops, path, {"was not closed by its writer"});
-    ticks.finish(record.axes);
+    finish(ticks, path, record);
     record.configs.push_back(config);
 }
 
@@ -114,7 +121,7 @@ void read_raw(const Plan& plan, const config::Config& said, const std::string& p
     const recorded::LogCompensation asked = recorded::log_compensation(config, raw.header(), path);
     for (const auto* lines : {&asked.notes, &asked.warnings}) add(record.notes, path, *lines);
     if (!asked.presumed.empty()) add(record.notes, path, {asked.presumed});
-    study::TickRates ticks{file_name(path), path, config.gyro.tick_s};
+    study::TickRates ticks{path, config.gyro.tick_s};
     rig::Replay replay{asked.compensation};
     SwitchReader switches{asked.config};
     const auto on_row = [&](const core::AngleRow& row) {
@@ -133,18 +140,10 @@ void read_raw(const Plan& plan, const config::Config& said, const std::string& p
     recorded::require_a_tick(replay, path);
     add(record.stops, path, replay.contradictions(path));
     if (!raw.header().complete) add(record.stops, path, {"was not closed by its writer"});
-    ticks.finish(record.axes);
+    finish(ticks, path, record);
     record.switches.push_back(switches.finish());
     record.raw_logs.push_back(path);
     record.configs.push_back(asked.config);
-}
-
-// Of the rows, spread evenly over the samples where rows are missing.
-void take_temperature(const logs::ForeignLook& look, std::size_t n_samples, RunRecord& record) {
-    if (record.run->temperature.empty()) return;
-    const logs::ForeignColumn& column = logs::column_named(look.table, record.run->temperature);
-    const std::vector<double> rows = look.table.read({column.number}, 0).columns.front().values;
-    for (std::size_t k = 0; k < n_samples; ++k) record.temperature_c.push_back(rows[k * rows.size() / n_samples]);
 }
 
 void read_axes(const Plan& plan, const logs::ForeignLook& look, RunRecord& record) {
@@ -156,17 +155,9 @@ void read_axes(const Plan& plan, const logs::ForeignLook& look, RunRecord& recor
     if (imported.axes.size() != 1)
         throw config::ConfigError(
             fmt::format("{}: {} axes; a unit has one: axis = COLUMN", record.run->place, imported.axes.size()));
-    logs::ImportedAxis& from = imported.axes.front();
-    study::AxisRecord axis;
-    axis.name = fmt::format("{}, {}", file_name(path), from.name);
-    axis.group = path;
-    axis.holds = from.holds;
-    axis.rate_hz = from.rate_hz;
-    axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
-    axis.phase_arcsec = std::move(from.phase_arcsec);
-    axis.mode = std::move(from.mode);
-    add(record.stops, path, from.warnings);
-    take_temperature(look, axis.rates_arcsec_s.size(), record);
+    study::AxisRecord axis = study::axis_of(path, std::move(imported.axes.front()));
+    add(record.stops, path, axis.warnings);
+    record.temperature_c = std::move(imported.temperature_c);
     record.axes.push_back(std::move(axis));
     record.table_rates_arcsec_s = std::move(imported.table_rates_arcsec_s);
 }

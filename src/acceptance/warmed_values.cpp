@@ -9,8 +9,9 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include <zlg/deviations/series.hpp>
+#include <zlg/noise/bias_temperature.hpp>
 #include <zlg/noise/mode_split.hpp>
-#include <zlg/numeric/cluster_fit.hpp>
 #include <zlg/numeric/minimum.hpp>
 #include <zlg/report/number_text.hpp>
 
@@ -80,31 +81,6 @@ report::Figure course_figure(const RunRecord& record, const std::vector<Point>& 
     return f;
 }
 
-// +1 where it warms, -1 where it cools, 0 where it changes little.
-std::vector<double> ways_of(const std::vector<Point>& course) {
-    std::vector<double> change(course.size(), 0.0);
-    double most = 0.0;
-    for (std::size_t k = 1; k + 1 < course.size(); ++k) {
-        change[k] = course[k + 1].temperature_c - course[k - 1].temperature_c;
-        most = std::max(most, std::abs(change[k]));
-    }
-    for (double& c : change) c = std::abs(c) < 0.1 * most ? 0.0 : std::copysign(1.0, c);
-    return change;
-}
-
-// Least squares over eight clusters of neighbours: within one the noise may be correlated.
-numeric::ClusterFit fit_of(const std::vector<Point>& course, const Eigen::MatrixXd& laws, std::size_t n_clusters) {
-    const auto p = laws.cols();
-    std::vector<numeric::Cluster> clusters(n_clusters, {Eigen::MatrixXd::Zero(p, p), Eigen::VectorXd::Zero(p)});
-    for (std::size_t k = 0; k < course.size(); ++k) {
-        const Eigen::VectorXd x = laws.row(static_cast<Eigen::Index>(k)).transpose();
-        numeric::Cluster& cluster = clusters[k * n_clusters / course.size()];
-        cluster.information += x * x.transpose();
-        cluster.products += x * course[k].rate;
-    }
-    return numeric::fit_clusters(clusters);
-}
-
 // A (1 - ...) of the warming: rate = b + a exp(-t/tau), by least squares for each tau.
 struct Warming {
     double a = 0.0, b = 0.0, tau_s = 1.0, residual = 0.0;
@@ -150,40 +126,28 @@ Found temperature_values(const std::vector<RunRecord*>& records) {
     };
     if (record.temperature_c.empty()) return refuse("needs a log with temperature_c");
     const std::vector<Point> course = with_temperature(course_of(record), record);
-    if (course.size() < 32)
-        return refuse(fmt::format("needs 32 means with a temperature; there are {}", course.size()));
-    const auto [least, most] = std::ranges::minmax(course, {}, &Point::temperature_c);
-    if (most.temperature_c - least.temperature_c < 1.0) return refuse("needs a range of temperatures of 1 C or more");
-    found.figures.push_back(course_figure(record, course, "Rate against temperature", true));
-    const std::vector<double> ways = ways_of(course);
-    const auto n_up = std::ranges::count(ways, 1.0), n_down = std::ranges::count(ways, -1.0);
-    const bool both = std::min(n_up, n_down) * 8 >= std::ssize(course);
-    Eigen::MatrixXd laws(std::ssize(course), both ? 3 : 2);
-    const double middle = 0.5 * (least.temperature_c + most.temperature_c);
-    for (Eigen::Index k = 0; k < laws.rows(); ++k) {
-        laws(k, 0) = 1.0;
-        laws(k, 1) = course[static_cast<std::size_t>(k)].temperature_c - middle;
-        if (both) laws(k, 2) = ways[static_cast<std::size_t>(k)];
+    std::vector<double> rates, temperatures;
+    for (const Point& p : course) {
+        rates.push_back(p.rate);
+        temperatures.push_back(p.temperature_c);
     }
-    constexpr std::size_t n_clusters = 12;
-    const numeric::ClusterFit fit = fit_of(course, laws, n_clusters);
-    const double degrees = static_cast<double>(n_clusters) - static_cast<double>(laws.cols());
+    noise::BiasTemperature law;
+    try {
+        law = noise::bias_temperature({.rates_arcsec_s = rates, .temperature_c = temperatures});
+    } catch (const deviations::SeriesError& error) {
+        return refuse(error.what());
+    }
+    if (law.most_c - law.least_c < 1.0) return refuse("needs a range of temperatures of 1 C or more");
+    found.figures.push_back(course_figure(record, course, "Rate against temperature", true));
     const double hours = (course.back().time_s - course.front().time_s) / 3600.0;
-    found.values.push_back({.name = slope,
-                            .determined = true,
-                            .value = fit.coefficient[1],
-                            .uncertainty = std::sqrt(fit.covariance(1, 1)),
-                            .degrees = degrees,
-                            .hours = hours});
-    if (both)
-        found.values.push_back({.name = hysteresis,
-                                .determined = true,
-                                .value = 2.0 * std::abs(fit.coefficient[2]),
-                                .uncertainty = 2.0 * std::sqrt(fit.covariance(2, 2)),
-                                .degrees = degrees,
-                                .hours = hours});
-    else
-        found.values.push_back(not_determined(hysteresis, "needs warming and cooling in one run"));
+    const auto add = [&](const char* name, const numeric::Estimate& e, double value) {
+        found.values.push_back(
+            e.determined
+                ? Value{.name = name, .determined = true, .value = value, .uncertainty = e.sigma, .hours = hours}
+                : not_determined(name, e.reason));
+    };
+    add(slope, law.bias[1], law.bias[1].value);
+    add(hysteresis, law.hysteresis_arcsec_s, std::abs(law.hysteresis_arcsec_s.value));
     return found;
 }
 

@@ -1,7 +1,8 @@
-#include <zlg/study/tick_rates.hpp>
+#include <zlg/study/axis_records.hpp>
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -15,10 +16,12 @@ constexpr std::uint32_t not_measured = core::flag_switching | core::flag_extrapo
                                        core::flag_unrepaired | core::flag_loop_unlocked | core::flag_invalid |
                                        core::flag_mode_mixed;
 
+std::string name_of(const std::string& path) { return std::filesystem::path{path}.filename().string(); }
+
 }  // namespace
 
-TickRates::TickRates(std::string name, const std::string& path, double tick_s) : tick_s_(tick_s) {
-    axis_.name = std::move(name);
+TickRates::TickRates(const std::string& path, double tick_s) : tick_s_(tick_s) {
+    axis_.name = name_of(path);
     axis_.group = path;
     axis_.holds = fmt::format("final angle of ticks of {} s", tick_s);
     axis_.rate_hz = 1.0 / tick_s;
@@ -59,6 +62,19 @@ void check_tick(const std::string& path, double tick_s, double first_s, const lo
     if (std::fabs(by_times_s - tick_s) <= 1e-3 * tick_s) return;
     throw logs::FormatError{fmt::format("{}: tick_s = {}, and the column t_s has ticks of {} s; allowed is one value",
                                         path, tick_s, by_times_s)};
+}
+
+AxisRecord axis_of(const std::string& path, logs::ImportedAxis&& from) {
+    AxisRecord axis;
+    axis.name = fmt::format("{}, {}", name_of(path), from.name);
+    axis.group = path;
+    axis.holds = std::move(from.holds);
+    axis.rate_hz = from.rate_hz;
+    axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
+    axis.phase_arcsec = std::move(from.phase_arcsec);
+    axis.mode = std::move(from.mode);
+    axis.warnings = std::move(from.warnings);
+    return axis;
 }
 
 }  // namespace zlg::study

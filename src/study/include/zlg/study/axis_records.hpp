@@ -1,5 +1,5 @@
 #pragma once
-// The ticks of a log of zlg as one axis of an analysis: angles as rates, and their error where the truth is known.
+// What was read as axes of an analysis: the ticks of a log of zlg, as rates, and the axes of another program's file.
 
 #include <limits>
 #include <string>
@@ -8,14 +8,14 @@
 
 #include <zlg/core/records.hpp>
 #include <zlg/logs/angle_log.hpp>
+#include <zlg/logs/imported.hpp>
 #include <zlg/study/axis.hpp>
 
 namespace zlg::study {
 
 class TickRates {
 public:
-    // name  of the file without its folder.
-    TickRates(std::string name, const std::string& path, double tick_s);
+    TickRates(const std::string& path, double tick_s);
 
     // A tick that was bridged, or not even that, is none of the rates.
     void take(const core::AngleRow& row, double truth_arcsec = std::numeric_limits<double>::quiet_NaN());
@@ -35,5 +35,8 @@ private:
 //
 // errors  logs::FormatError.
 void check_tick(const std::string& path, double tick_s, double first_s, const logs::TimedAngle& last);
+
+// Named by the file without its folder, and by its column.
+[[nodiscard]] AxisRecord axis_of(const std::string& path, logs::ImportedAxis&& from);
 
 }  // namespace zlg::study
