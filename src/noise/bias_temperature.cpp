@@ -77,14 +77,10 @@ Stretches stretches_of(const TemperatureRecord& r, double mean_c, double span) {
         s.rate[k] = all[static_cast<std::size_t>(k)][0];
         s.laws.row(k).head(way) = all[static_cast<std::size_t>(k)].tail(way).transpose();
     }
-    const auto rise = [&](Eigen::Index k) {
-        return s.laws(std::min(k + 1, rows - 1), 1) - s.laws(std::max<Eigen::Index>(k - 1, 0), 1);
-    };
-    double most = 0.0;
-    for (Eigen::Index k = 0; k < rows; ++k) most = std::max(most, std::abs(rise(k)));
-    // In a soak the sensor's noise goes up and down, and the gyro neither.
-    for (Eigen::Index k = 0; k < rows; ++k)
-        s.laws(k, way) = std::abs(rise(k)) < 0.1 * most ? 0.0 : std::copysign(1.0, rise(k));
+    for (Eigen::Index k = 0; k < rows; ++k) {
+        const double rise = s.laws(std::min(k + 1, rows - 1), 1) - s.laws(std::max<Eigen::Index>(k - 1, 0), 1);
+        s.laws(k, way) = rise > 0.0 ? 1.0 : rise < 0.0 ? -1.0 : 0.0;
+    }
     // Without both ways of going there is no difference between them.
     auto d = s.laws.col(way);
     if (!((d.array() > 0.0).any() && (d.array() < 0.0).any())) d.setZero();
