@@ -166,7 +166,8 @@ void check_environment(const Config& config) {
         throw ConfigError(fmt::format("field.course: field.kind = {} needs {}",
                                       value_text(*find_key("field", "kind"), config), allowed));
     };
-    if (field.kind == FieldKind::steps && !field.course.path.empty()) wrong("[[time, field], ...]");
+    const bool is_listed = field.course.is_given() && field.course.path.empty();
+    if (field.kind == FieldKind::steps && !is_listed) wrong("[[time, field], ...]");
     if (field.kind == FieldKind::file && field.course.path.empty()) wrong("the path of a file");
     if (field.kind == FieldKind::steps) check_course("field.course", field.course, 1);
     if (field.kind == FieldKind::file) check_course("field.course", field.course, 2);

@@ -83,6 +83,16 @@ std::string value_of(const config::KeyInfo& key, int k, std::mt19937_64& random)
             return fmt::format("\"{}\"", pick(key.choices));
         case ValueKind::text:
             return "\"text\"";
+        case ValueKind::points: {
+            const Allowed time{.min = -1e9, .max = 1e9}, value{.min = -1e6, .max = 1e6};
+            std::vector<double> times;
+            for (int n = 0; n < k % 4; ++n) times.push_back(draw(time, n, random));
+            std::ranges::sort(times);
+            std::string points;
+            for (const double t : times)
+                points += fmt::format("{}[{:.17e}, {:.17e}]", points.empty() ? "" : ", ", t, draw(value, k, random));
+            return "[" + points + "]";
+        }
         case ValueKind::column:
         case ValueKind::integer: {
             if (key.allowed == "-1 or 1") return pick({"-1", "1"});
