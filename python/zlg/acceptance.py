@@ -49,7 +49,8 @@ class Acceptance(Shown):
     unit: dict[str, Any]
     risk: float
     #: that a unit which passes all limits lies beyond one
-    unit_risk: float
+    #: that a unit which passes lies beyond one of the limits; None: it does not pass
+    unit_risk: Optional[float]
     quantities: list[Quantity]
     #: files with their checksums, notes, and why a run is no measurement
     runs: list[dict[str, Any]]

@@ -51,7 +51,7 @@ public:
         if (!still_.empty()) take(still_values(result_.plan, still_));
         if (const auto switches = all_switches(); !switches.empty()) take(switch_values(switches, still_));
         for (const QuantityInfo& q : quantities()) judge_one(q, values);
-        result_.unit_risk = unit_risk(result_.quantities);
+        if (result_.passed()) result_.unit_risk = unit_risk(result_.quantities);
         return std::move(result_);
     }
 
@@ -163,7 +163,8 @@ private:
     }
 
     void judge_one(const QuantityInfo& q, const std::vector<Value>& values) {
-        const auto found = std::ranges::find(values, q.name, &Value::name);
+        auto found = std::ranges::find_if(values, [&](const Value& v) { return v.name == q.name && v.determined; });
+        if (found == values.end()) found = std::ranges::find(values, q.name, &Value::name);
         Value value = found != values.end() ? *found : not_determined(q.name, fmt::format("needs {}", q.needs));
         if (const auto why = stopped(q)) value = not_determined(q.name, *why);
         const auto limit = std::ranges::find(result_.plan.limits, q.name, &Limit::name);

@@ -123,11 +123,9 @@ std::string lead_of(const Acceptance& test) {
     say("date", u.date);
     say("operator", u.operator_name);
     say("equipment", u.equipment);
-    return text + (text.empty() ? "" : ". ") +
-           fmt::format(
-               "Each limit is judged at a risk of {:g}; the risk that a unit which passes all of them lies beyond one "
-               "is {:.2g} here.",
-               test.plan.risk, test.unit_risk);
+    return text + (text.empty() ? "" : ". ") + fmt::format("Each limit is judged at a risk of {:g}.", test.plan.risk) +
+           (test.unit_risk ? fmt::format(" The risk that this unit lies beyond one of them is {:.2g}.", *test.unit_risk)
+                           : "");
 }
 
 Section runs_section(const Acceptance& test) {

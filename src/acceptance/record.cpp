@@ -115,7 +115,7 @@ std::string record_json(const Acceptance& test, const std::string& command) {
         {"passed", test.passed()},
         {"unit", unit_json(test.plan.unit)},
         {"risk", test.plan.risk},
-        {"unit_risk", test.unit_risk},
+        {"unit_risk", test.unit_risk ? ordered_json(*test.unit_risk) : ordered_json()},
         {"quantities", all},
         {"runs", runs},
         {"plan", {{"file", fs::path{test.plan.path}.filename().string()}, {"xxh64", hex(test.plan_checksum)}}},

@@ -63,8 +63,8 @@ void check_serial(const Plan& plan, const logs::Settings& settings, const std::s
 
 // "Serial number: 17", "S/N;17" above the columns.
 void check_serial(const Plan& plan, const std::vector<std::string>& head, const std::string& path) {
-    static const std::regex serial{R"((?:serial(?:[ _]?(?:number|no\.?|nr\.?))?|s/n)\s*[:=;,\t ]\s*"?([^\s;,"]+))",
-                                   std::regex::icase};
+    static const std::regex serial{
+        R"((?:^|[^a-z])(?:serial(?:[ _]?(?:number|no\.?|nr\.?))?|s/n)\s*[:=;,\t]\s*"?([^\s;,"]+))", std::regex::icase};
     for (const std::string& line : head) {
         std::smatch found;
         const std::string start = line.substr(0, 400);
@@ -114,6 +114,15 @@ void read_angles(const Plan& plan, const config::Config& said, const std::string
     record.configs.push_back(config);
 }
 
+// One a tick; NaN where the log lacks it.
+void keep_temperature(const core::HalfRecord& half, std::vector<double>& temperature_c,
+                      std::optional<std::int64_t>& first_tick) {
+    const std::int64_t tick = half.half / 2;
+    if (!first_tick) first_tick = tick;
+    temperature_c.resize(static_cast<std::size_t>(tick - *first_tick + 1), std::numeric_limits<double>::quiet_NaN());
+    temperature_c.back() = half.temperature_c;
+}
+
 void read_raw(const Plan& plan, const config::Config& said, const std::string& path, RunRecord& record) {
     logs::RawReader raw = open_raw(*record.run, path, record.notes);
     add(record.notes, path, raw.header().warnings);
@@ -130,17 +139,21 @@ void read_raw(const Plan& plan, const config::Config& said, const std::string& p
     };
     const auto on_gap = [&](const core::GapReport& gap) { switches.take(gap); };
     const bool warms = record.run->kind == RunKind::temperature && raw.header().has_temperature;
+    std::vector<double> temperature_c;
+    std::optional<std::int64_t> first_tick;
     core::HalfRecord half;
     while (raw.next(half)) {
         switches.take(half);
-        if (warms && half.half % 2 != 0) record.temperature_c.push_back(half.temperature_c);
+        if (warms) keep_temperature(half, temperature_c, first_tick);
         replay.take(half, raw.light(), on_row, on_gap);
     }
     replay.end(on_row, on_gap);
     recorded::require_a_tick(replay, path);
     add(record.stops, path, replay.contradictions(path));
     if (!raw.header().complete) add(record.stops, path, {"was not closed by its writer"});
+    const std::size_t axis = record.axes.size();
     finish(ticks, path, record);
+    record.axes[axis].temperature_c = std::move(temperature_c);
     record.switches.push_back(switches.finish());
     record.raw_logs.push_back(path);
     record.configs.push_back(asked.config);
@@ -157,7 +170,11 @@ void read_axes(const Plan& plan, const logs::ForeignLook& look, RunRecord& recor
             fmt::format("{}: {} axes; a unit has one: axis = COLUMN", record.run->place, imported.axes.size()));
     study::AxisRecord axis = study::axis_of(path, std::move(imported.axes.front()));
     add(record.stops, path, axis.warnings);
-    record.temperature_c = std::move(imported.temperature_c);
+    const auto missing = std::ranges::count_if(axis.rates_arcsec_s, [](double rate) { return !std::isfinite(rate); });
+    if (missing * 100 > std::ssize(axis.rates_arcsec_s))
+        add(record.stops, path,
+            {fmt::format("{} of {} samples are missing; allowed is one in 100", missing, axis.rates_arcsec_s.size())});
+    axis.temperature_c = std::move(imported.temperature_c);
     record.axes.push_back(std::move(axis));
     record.table_rates_arcsec_s = std::move(imported.table_rates_arcsec_s);
 }

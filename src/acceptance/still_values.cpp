@@ -117,7 +117,17 @@ Value noise_value(const char* name, NoiseKind kind, const StillAxis& of) {
 
 }  // namespace
 
+bool scatters(double squares, double degrees) {
+    return boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees), squares)) < significance;
+}
+
+Value largest(const std::vector<Value>& runs) {
+    const auto open = std::ranges::find(runs, false, &Value::determined);
+    return open != runs.end() ? *open : *std::ranges::max_element(runs, {}, &Value::value);
+}
+
 Value together(const std::vector<Value>& runs) {
+    if (const auto open = std::ranges::find(runs, false, &Value::determined); open != runs.end()) return *open;
     Value v = runs.front();
     if (runs.size() == 1) return v;
     const auto n = static_cast<double>(runs.size());
@@ -131,8 +141,7 @@ Value together(const std::vector<Value>& runs) {
         scatter += std::pow(run.value - v.value, 2) / (n - 1.0);
         tested += std::pow(run.value - v.value, 2) / squared;
     }
-    const boost::math::chi_squared law(n - 1.0);
-    const bool differ = boost::math::cdf(boost::math::complement(law, tested)) < significance;
+    const bool differ = scatters(tested, n - 1.0);
     v.uncertainty = std::sqrt(differ ? scatter / n : within) / (differ ? 1.0 : n);
     v.degrees = differ ? n - 1.0 : within * within / own_degrees;
     if (differ) v.uncertainty_after = {};

@@ -39,6 +39,8 @@ void SwitchReader::follow_lock(const core::HalfRecord& half) {
 void SwitchReader::end_lock() {
     if (last_beyond_ < followed_halves)
         record_.relock_s.push_back(static_cast<double>(last_beyond_) * 0.5 * config_.gyro.tick_s);
+    else
+        ++record_.unsettled;
     closed_halves_ = -1;
 }
 

@@ -86,11 +86,12 @@ std::vector<Value> constant_values(const study::CalibrationResult& found) {
 std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const std::vector<StillAxis>& axes) {
     Mean relock, miss;
     double hours = 0.0, longest = 0.0, sigma = 0.0, n = 0.0, half_s = 0.0;
-    std::int64_t alarms = 0, withheld = 0;
+    std::int64_t alarms = 0, withheld = 0, unsettled = 0;
     bool tells_interval = !logs.empty();
     for (const SwitchRecord& log : logs) {
         hours += log.hours;
         alarms += log.alarms;
+        unsettled += log.unsettled;
         half_s = log.half_s;
         tells_interval = tells_interval && log.withheld.has_value();
         withheld += log.withheld.value_or(0);
@@ -105,7 +106,10 @@ std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const st
     constexpr const char* none = "the logs hold no switch";
     std::vector<Value> all;
     all.push_back(
-        mean_value("relock.s", relock, hours, half_s, "needs two switches after which detuning_lambda settles"));
+        relock.n > 0.0 && unsettled > 0
+            ? not_determined("relock.s", fmt::format("after {} of {} switches detuning_lambda does not settle",
+                                                     unsettled, unsettled + std::llround(relock.n)))
+            : mean_value("relock.s", relock, hours, half_s, "needs two switches after which detuning_lambda settles"));
     all.push_back(n > 0.0 ? counted("gap.ticks", longest, hours) : not_determined("gap.ticks", none));
     all.push_back(mean_value("miss.lambda", miss, hours, 0.0, "needs two switches with detuning_lambda"));
     all.push_back(n > 0.0 && std::isfinite(sigma)

@@ -175,7 +175,9 @@ Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, con
         const auto free = static_cast<double>(scales.size()) - 1.0;
         found.values.push_back(deviation(repeatability, std::sqrt(spread / free), free, hours));
     }
-    found.values.push_back(threshold_of(tables.front()));
+    std::vector<Value> thresholds;
+    for (const Turned& t : tables) thresholds.push_back(threshold_of(t));
+    found.values.push_back(largest(thresholds));
     return found;
 }
 

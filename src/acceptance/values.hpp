@@ -26,7 +26,15 @@ struct StillAxis {
 
 // The mean of one quantity over runs. Where they differ by more than their own noise explains (chi-square), their
 // scatter is the error of the mean; else their noise is.
+// One that is not determined leaves the mean open.
 [[nodiscard]] Value together(const std::vector<Value>& runs);
+
+// The largest of one quantity over runs; one that is not determined leaves it open.
+[[nodiscard]] Value largest(const std::vector<Value>& runs);
+
+// Whether squared differences over their own variances, in sum, are more than chance gives with so many degrees of
+// freedom (chi-square, 5 %).
+[[nodiscard]] bool scatters(double squares, double degrees);
 
 // Mean rate at rest, or non-magnetic drift, with what the noise lets it differ by.
 [[nodiscard]] Value bias_of(const Plan& plan, const StillAxis& of);

@@ -32,9 +32,8 @@ struct Point {
 };
 
 // Of a switched gyro its non-magnetic part, segment by segment; else means over 128 equal stretches.
-std::vector<Point> course_of(const RunRecord& record) {
+std::vector<Point> course_of(const study::AxisRecord& axis) {
     constexpr std::size_t n_stretches = 128;
-    const study::AxisRecord& axis = record.axes.front();
     const std::size_t n = axis.rates_arcsec_s.size();
     std::vector<Point> course;
     if (!axis.mode.empty()) {
@@ -54,27 +53,28 @@ std::vector<Point> course_of(const RunRecord& record) {
 }
 
 // The mean of the temperatures around each point.
-std::vector<Point> with_temperature(std::vector<Point> course, const RunRecord& record) {
-    const double rate_hz = record.axes.front().rate_hz;
+std::vector<Point> with_temperature(std::vector<Point> course, const study::AxisRecord& axis) {
+    const double rate_hz = axis.rate_hz;
     const double half_s = course.size() > 1 ? 0.5 * (course[1].time_s - course[0].time_s) : 1.0;
     for (Point& p : course) {
         double known = 0.0, sum = 0.0;
         const auto from = static_cast<std::size_t>(std::max(0.0, (p.time_s - half_s) * rate_hz));
-        const auto to = std::min(record.temperature_c.size(), static_cast<std::size_t>((p.time_s + half_s) * rate_hz));
+        const auto to = std::min(axis.temperature_c.size(), static_cast<std::size_t>((p.time_s + half_s) * rate_hz));
         for (std::size_t k = from; k < to; ++k)
-            if (std::isfinite(record.temperature_c[k])) known += 1.0, sum += record.temperature_c[k];
+            if (std::isfinite(axis.temperature_c[k])) known += 1.0, sum += axis.temperature_c[k];
         p.temperature_c = known > 0.0 ? sum / known : std::numeric_limits<double>::quiet_NaN();
     }
     std::erase_if(course, [](const Point& p) { return !std::isfinite(p.temperature_c); });
     return course;
 }
 
-report::Figure course_figure(const RunRecord& record, const std::vector<Point>& course, const char* title,
-                             bool over_temperature) {
-    report::Figure f = report::blank_figure(
-        fmt::format("course-of-run-{}", record.run->number), fmt::format("{}, run {}", title, record.run->number),
-        "Means over stretches of the run; of a switched gyro its non-magnetic part.",
-        over_temperature ? "temperature, C" : "time, s", "rate, deg/h");
+report::Figure course_figure(const RunRecord& record, std::size_t axis, const std::vector<Point>& course,
+                             const char* title, bool over_temperature) {
+    report::Figure f =
+        report::blank_figure(fmt::format("course-of-run-{}-{}", record.run->number, axis + 1),
+                             fmt::format("{}, run {}", title, record.run->number),
+                             "Means over stretches of the run; of a switched gyro its non-magnetic part.",
+                             over_temperature ? "temperature, C" : "time, s", "rate, deg/h");
     report::Series points = report::blank_series("means", report::Mark::points);
     for (const Point& p : course) report::add_point(points, over_temperature ? p.temperature_c : p.time_s, p.rate);
     f.series = {std::move(points)};
@@ -115,17 +115,14 @@ WarmingError error_of(const std::vector<Point>& course, const Warming& w, double
     return {std::sqrt(covariance(0, 0)), std::sqrt(gradient.dot(covariance * gradient))};
 }
 
-}  // namespace
-
-Found temperature_values(const std::vector<RunRecord*>& records) {
-    Found found;
-    const RunRecord& record = *records.front();
-    const auto refuse = [&](const std::string& why) {
-        found.values = {not_determined(slope, why), not_determined(hysteresis, why)};
-        return found;
+// Slope and hysteresis of one axis.
+std::array<Value, 2> temperature_of(const RunRecord& record, std::size_t index, std::vector<report::Figure>& figures) {
+    const study::AxisRecord& axis = record.axes[index];
+    const auto refuse = [](const std::string& why) {
+        return std::array{not_determined(slope, why), not_determined(hysteresis, why)};
     };
-    if (record.temperature_c.empty()) return refuse("needs a log with temperature_c");
-    const std::vector<Point> course = with_temperature(course_of(record), record);
+    if (axis.temperature_c.empty()) return refuse("needs a log with temperature_c");
+    const std::vector<Point> course = with_temperature(course_of(axis), axis);
     std::vector<double> rates, temperatures;
     for (const Point& p : course) {
         rates.push_back(p.rate);
@@ -138,53 +135,73 @@ Found temperature_values(const std::vector<RunRecord*>& records) {
         return refuse(error.what());
     }
     if (law.most_c - law.least_c < 1.0) return refuse("needs a range of temperatures of 1 C or more");
-    found.figures.push_back(course_figure(record, course, "Rate against temperature", true));
+    figures.push_back(course_figure(record, index, course, "Rate against temperature", true));
     const double hours = (course.back().time_s - course.front().time_s) / 3600.0;
-    const auto add = [&](const char* name, const numeric::Estimate& e, double value) {
-        found.values.push_back(
-            e.determined
-                ? Value{.name = name, .determined = true, .value = value, .uncertainty = e.sigma, .hours = hours}
-                : not_determined(name, e.reason));
+    const auto value_of = [hours](const char* name, const numeric::Estimate& e, double value) {
+        if (!e.determined) return not_determined(name, e.reason);
+        return Value{.name = name, .determined = true, .value = value, .uncertainty = e.sigma, .hours = hours};
     };
-    add(slope, law.bias[1], law.bias[1].value);
-    add(hysteresis, law.hysteresis_arcsec_s, std::abs(law.hysteresis_arcsec_s.value));
-    return found;
+    return {value_of(slope, law.bias[1], law.bias[1].value),
+            value_of(hysteresis, law.hysteresis_arcsec_s, std::abs(law.hysteresis_arcsec_s.value))};
 }
 
-Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
-    Found found;
-    const RunRecord& record = *records.front();
-    const auto refuse = [&](const char* why) {
-        found.values = {not_determined(settling, why)};
-        return found;
-    };
-    if (plan.warm_up_band_deg_h == 0.0)
-        return refuse("needs [accept] warm_up_band_deg_h: within which the bias has settled");
-    const std::vector<Point> course = course_of(record);
-    if (course.size() < 8) return refuse("needs eight means over the run");
-    found.figures.push_back(course_figure(record, course, "Warming", false));
-    const double length_s = course.back().time_s, band = plan.warm_up_band_deg_h;
+// Time from the start until the bias stays within the band.
+Value settling_of(const RunRecord& record, std::size_t index, double band, std::vector<report::Figure>& figures) {
+    const std::vector<Point> course = course_of(record.axes[index]);
+    if (course.size() < 8) return not_determined(settling, "needs eight means over the run");
+    figures.push_back(course_figure(record, index, course, "Warming", false));
+    const double length_s = course.back().time_s;
     const auto left = [&](double log_tau) { return warming_of(course, std::exp(log_tau)).residual; };
     const double log_tau = numeric::scanned_minimum(left, std::log(length_s / 100.0), std::log(length_s), 60).at;
     const Warming w = warming_of(course, std::exp(log_tau));
     const WarmingError error = error_of(course, w, band);
     Value v = counted(settling, 0.0, length_s / 3600.0);
-    const bool bends = std::abs(w.a) > significant * error.a;
-    if (!bends && !(std::abs(w.a) + significant * error.a < band))
-        return refuse("the bias does not bend by more than its noise, and that is more than the band");
-    if (bends) {
-        v.value = w.tau_s * std::log(std::max(1.0, std::abs(w.a) / band));
-        v.uncertainty = error.time_s;
-        v.degrees = static_cast<double>(course.size()) - 3.0;
-        v.law = Law::student;
-        if (!(v.value + v.uncertainty < length_s))
-            return refuse("needs a longer run: the bias has not settled within it");
-        v.reason = fmt::format("bias b + a exp(-t/tau), a = {} deg/h, tau = {} s", report::short_number(w.a),
-                               report::short_number(w.tau_s));
-    } else {
+    if (!(std::abs(w.a) > significant * error.a)) {
+        if (!(std::abs(w.a) + significant * error.a < band))
+            return not_determined(settling,
+                                  "the bias does not bend by more than its noise, and that is more than the band");
         v.reason = "the bias changes by less than the band";
+        return v;
     }
-    found.values.push_back(std::move(v));
+    v.value = w.tau_s * std::log(std::max(1.0, std::abs(w.a) / band));
+    v.uncertainty = error.time_s;
+    v.degrees = static_cast<double>(course.size()) - 3.0;
+    v.law = Law::student;
+    if (!(v.value + v.uncertainty < length_s))
+        return not_determined(settling, "needs a longer run: the bias has not settled within it");
+    v.reason = fmt::format("bias b + a exp(-t/tau), a = {} deg/h, tau = {} s", report::short_number(w.a),
+                           report::short_number(w.tau_s));
+    return v;
+}
+
+}  // namespace
+
+Found temperature_values(const std::vector<RunRecord*>& records) {
+    Found found;
+    std::vector<Value> slopes, widths;
+    for (const RunRecord* record : records)
+        for (std::size_t k = 0; k < record->axes.size(); ++k) {
+            auto [one, width] = temperature_of(*record, k, found.figures);
+            slopes.push_back(std::move(one));
+            widths.push_back(std::move(width));
+        }
+    found.values = {together(slopes), largest(widths)};
+    return found;
+}
+
+Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
+    Found found;
+    const double band = plan.warm_up_band_deg_h;
+    if (band == 0.0) {
+        found.values = {
+            not_determined(settling, "needs [accept] warm_up_band_deg_h: within which the bias has settled")};
+        return found;
+    }
+    std::vector<Value> times;
+    for (const RunRecord* record : records)
+        for (std::size_t k = 0; k < record->axes.size(); ++k)
+            times.push_back(settling_of(*record, k, band, found.figures));
+    found.values = {largest(times)};
     return found;
 }
 
@@ -213,8 +230,12 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
         xy += weight * (x - field / weights) * (y - rate / weights);
     }
     if (!(xx > 0.0) || !std::isfinite(xx)) return found;
-    for (const auto& [x, y, weight] : runs)
-        squares += std::pow(y - rate / weights - xy / xx * (x - field / weights), 2);
+    double tested = 0.0;
+    for (const auto& [x, y, weight] : runs) {
+        const double residual = y - rate / weights - xy / xx * (x - field / weights);
+        squares += residual * residual;
+        tested += weight * residual * residual;
+    }
     report::Figure f =
         report::blank_figure("field", "Bias in a magnetic field",
                              "Bias of each run, with twice its standard uncertainty.", "field, mT", "bias, deg/h");
@@ -227,6 +248,10 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
                             .degrees = degrees,
                             .hours = hours});
     if (const double free = static_cast<double>(runs.size()) - 2.0; free > 0.0) {
+        if (scatters(tested, free)) {
+            found.values.back().uncertainty *= std::sqrt(tested / free);
+            found.values.back().degrees = free;
+        }
         found.values.push_back(deviation("magnetic_residual.deg_h", std::sqrt(squares / free), free, hours));
     }
     return found;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,8 @@ struct Acceptance {
     std::uint64_t plan_checksum = 0;
     std::string settings;  // lines of TOML: what the user said over the defaults
     std::vector<TestedRun> runs;
-    std::vector<Judged> quantities;  // in the order of `quantities()`
-    double unit_risk = 0.0;
+    std::vector<Judged> quantities;   // in the order of `quantities()`
+    std::optional<double> unit_risk;  // that a unit which passes lies beyond one of the limits; none: it does not pass
     std::vector<report::Figure> figures;  // what the verdicts rest on
 
     // Every limit passes, and there is one.

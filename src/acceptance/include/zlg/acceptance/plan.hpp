@@ -27,12 +27,12 @@ struct Run {
     RunKind kind = RunKind::at_rest;
     std::vector<std::string> files;
     std::vector<Stage> stages;
-    std::string axis;         // "up", "north", ...: where the axis of the gyro points; else a label
-    double field_mt = 0.0;    // of a magnetic run, along the axis
-    std::string serial;       // of the unit, where the run says it
-    logs::Mapping mapping;    // of files of other programs
-    std::string place;        // "plan.toml:7: [[run]] 2", which begins a message
-    int number = 1;           // in the plan
+    std::string axis;       // "up", "north", ...: where the axis of the gyro points; else a label
+    double field_mt = 0.0;  // of a magnetic run, along the axis
+    std::string serial;     // of the unit, where the run says it
+    logs::Mapping mapping;  // of files of other programs
+    std::string place;      // "plan.toml:7: [[run]] 2", which begins a message
+    int number = 1;         // in the plan
 };
 
 struct Limit {
