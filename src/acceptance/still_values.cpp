@@ -10,7 +10,6 @@
 #include <zlg/noise/noise_terms.hpp>
 #include <zlg/study/term_text.hpp>
 
-#include "mean_error.hpp"
 #include "values.hpp"
 
 namespace zlg::acceptance {
@@ -28,17 +27,6 @@ double known_s(const AxisResult& axis) { return static_cast<double>(axis.n_known
 
 // Of a coefficient with this relative standard error, as a standard deviation with so many degrees of freedom has it.
 double degrees_of(double relative) { return 0.5 / (relative * relative); }
-
-// Of the stretches of the record; a sinusoid that was found is in them, and is no noise.
-MeanError error_of_mean(const AxisResult& axis) {
-    std::vector<double> means, half_periods;
-    for (const study::TimeBin& bin : axis.time_bins) means.push_back(bin.mean_arcsec_s);
-    const double span_s = static_cast<double>(axis.n_samples) / axis.rate_hz;
-    if (axis.fit)
-        for (const noise::SineTerm& sine : axis.fit->terms.sines)
-            half_periods.push_back(2.0 * span_s * sine.frequency_hz);
-    return mean_error(means, half_periods);
-}
 
 // The fitted noise at another length of the record.
 std::function<double(double)> mean_sigma_after(const AxisResult& axis) {
@@ -152,12 +140,11 @@ Value together(const std::vector<Value>& runs) {
 
 Value bias_of(const Plan& plan, const StillAxis& of) {
     const AxisResult& axis = of.result;
-    const MeanError error = error_of_mean(axis);
     Value v{.name = "bias.deg_h",
             .determined = true,
             .value = axis.mean_arcsec_s,
-            .uncertainty = error.sigma,
-            .degrees = error.degrees};
+            .uncertainty = axis.mean_sigma_arcsec_s,
+            .degrees = axis.mean_degrees};
     v.hours = known_s(axis) / 3600.0;
     v.uncertainty_after = mean_sigma_after(axis);
     if (axis.modes && axis.modes->segments.size() > 1) {

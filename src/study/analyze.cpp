@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/noise/mean_error.hpp>
 
 #include "axis_curves.hpp"
 
@@ -147,14 +148,18 @@ double mean_of(std::span<const double> rates) {
     return mean;
 }
 
+// Where only the temperature is not known the rate is as at its mean.
+void add_drift(double factor, AxisRecord& record, const noise::BiasTemperature& law) {
+    for (std::size_t k = 0; k < record.temperature_c.size(); ++k)
+        if (std::isfinite(record.temperature_c[k]))
+            record.rates_arcsec_s[k] += factor * law.drift_arcsec_s(record.temperature_c[k]);
+}
+
 void take_temperature(AxisRecord& record, AxisResult& axis) {
     if (record.temperature_c.empty()) return;
-    std::vector<double>& rates = record.rates_arcsec_s;
-    axis.temperature = noise::bias_temperature({.rates_arcsec_s = rates, .temperature_c = record.temperature_c});
-    // Where only the temperature is not known the rate is as at its mean.
-    for (std::size_t k = 0; k < rates.size(); ++k)
-        if (std::isfinite(record.temperature_c[k]))
-            rates[k] -= axis.temperature->drift_arcsec_s(record.temperature_c[k]);
+    axis.temperature =
+        noise::bias_temperature({.rates_arcsec_s = record.rates_arcsec_s, .temperature_c = record.temperature_c});
+    add_drift(-1.0, record, *axis.temperature);
 }
 
 // Takes out of the rates what is no noise, and the sinusoids out of the mean: over gaps and parts of a period they
@@ -175,19 +180,16 @@ void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     }
 }
 
-// How far such a mean may be from the next one: the fitted noise at the record's length, without ramp and sinusoids,
-// which are no chance; without a fit that describes the record, the longest Allan deviation, as of white noise.
-double sigma_of_mean(const AxisResult& axis) {
-    const double known_s = static_cast<double>(axis.n_known) / axis.rate_hz;
-    if (!axis.fit || !axis.fit->describes) {
-        if (axis.allan.points.empty()) return no_value;
-        const auto& last = axis.allan.points.back();
-        return last.deviation * std::sqrt(std::min(1.0, last.tau_s / known_s));
-    }
-    noise::NoiseTerms terms = axis.fit->terms;
-    terms.ramp_arcsec_s2 = 0.0;
-    terms.sines.clear();
-    return std::sqrt(noise::allan_variance(terms, known_s));
+// Of the rates that the fit left, without sinusoids and magnetic drift; what follows the temperature is in the mean.
+void take_mean_error(AxisRecord& record, AxisResult& axis) {
+    if (axis.temperature) add_drift(1.0, record, *axis.temperature);
+    std::vector<double> half_periods;
+    if (axis.fit)
+        for (const noise::SineTerm& sine : axis.fit->terms.sines)
+            half_periods.push_back(2.0 * static_cast<double>(axis.n_samples) / axis.rate_hz * sine.frequency_hz);
+    const noise::MeanError error = noise::mean_error(record.rates_arcsec_s, half_periods);
+    axis.mean_sigma_arcsec_s = error.sigma;
+    axis.mean_degrees = error.degrees;
 }
 
 AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
@@ -203,8 +205,8 @@ AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {
     if (task.with_page) take_spectra(record, axis);
     take_temperature(record, axis);
     take_fit(task, record, axis);
-    axis.mean_sigma_arcsec_s = sigma_of_mean(axis);
     axis.readouts = readouts_of(axis);
+    take_mean_error(record, axis);
     return axis;
 }
 

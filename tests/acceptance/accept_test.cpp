@@ -1,4 +1,5 @@
 #include <zlg/acceptance/accept.hpp>
+#include <zlg/noise/mean_error.hpp>
 
 #include "records.hpp"
 
@@ -136,6 +137,15 @@ TEST(Accept, a_field_moves_the_bias_by_its_sensitivity) {
     EXPECT_LT(slope.uncertainty, 3.0 * white_alone);
     EXPECT_LT(slope.degrees, 10.0);
     EXPECT_EQ(of(test, "magnetic_residual.deg_h").value.degrees, 1.0);
+}
+
+TEST(Accept, the_error_of_a_bias_is_that_of_its_mean) {
+    const std::vector<double> rates = white(5000, 1.0);
+    write("mean.csv", {rates});
+    const acceptance::Value bias = of(accepted(run("static", "mean.csv")), "bias.deg_h").value;
+    const noise::MeanError error = noise::mean_error(rates);
+    EXPECT_NEAR(bias.uncertainty, error.sigma, 1e-6 * error.sigma);
+    EXPECT_NEAR(bias.degrees, error.degrees, 1e-6 * error.degrees);
 }
 
 TEST(Accept, what_no_run_gives_says_what_it_needs) {

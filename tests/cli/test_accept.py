@@ -20,20 +20,23 @@ def means_of(values, length):
     return values[: len(values) // length * length].reshape(-1, length).mean(axis=1)
 
 
-# The variance of a record's mean over white noise, walks and flicker, each with its restricted likelihood: src/acceptance/mean_error.hpp.
+# The variance of a record's mean over white noise, walks and flicker, each with its restricted likelihood: zlg/noise/mean_error.hpp.
 def error_of_mean(rates):
-    course = means_of(rates, -(-len(rates) // 1500))
-    means = means_of(course, max(1, len(course) // 64))
+    means = means_of(rates, max(1, len(rates) // 64))
     n, k = len(means), np.arange(1, len(means))
-    squares = 2.0 / n * (np.cos(np.pi / n * np.outer(k, np.arange(n) + 0.5)) @ means) ** 2
-    laws = [(20.0, 0.0, np.ones(n - 1))]
-    for slow in 2.0 ** np.arange(4, 21):
-        laws.append((1.0, slow, 1.0 + 3.0 * slow / n**2 * (0.25 / np.sin(np.pi * k / 2 / n) ** 2 - 1 / 6)))
-        laws.append((0.2, slow, 1.0 + slow / (2.0 * np.log(2.0) * k)))
-    sums = np.array([(squares / shape).sum() for _, _, shape in laws])
-    logs = np.array([np.log(weight) - 0.5 * np.log(shape).sum() for weight, _, shape in laws]) - 0.5 * (n - 1) * np.log(sums)
+    squares = 2.0 / n * (np.cos(np.pi / n * np.outer(k, np.arange(n) + 0.5)) @ (means - means[0])) ** 2
+    slow = 2.0 ** np.arange(-6, 23)[:, None]
+    priors, shapes, ratios = [np.ones(1)], [np.ones((1, n - 1))], [np.zeros(1)]
+    for kind in (3.0 / n**2 * (0.25 / np.sin(np.pi * k / 2 / n) ** 2 - 1 / 6), 1.0 / (2.0 * np.log(2.0) * k)):
+        prior = (slow * kind / (1.0 + slow * kind)).std(axis=1)
+        priors.append(prior / prior.sum())
+        shapes.append(1.0 + slow * kind)
+        ratios.append(slow[:, 0])
+    shapes = np.concatenate(shapes)
+    sums = (squares / shapes).sum(axis=1)
+    logs = np.log(np.concatenate(priors)) - 0.5 * np.log(shapes).sum(axis=1) - 0.5 * (n - 1) * np.log(sums)
     weights = np.exp(logs - logs.max()) / np.exp(logs - logs.max()).sum()
-    variances = (1.0 + np.array([slow for _, slow, _ in laws])) * sums / n
+    variances = (1.0 + np.concatenate(ratios)) * sums / n
     variance = (weights * variances).sum() / (n - 3)
     spread = (weights * variances**2).sum() / ((n - 3) * (n - 5)) / variance**2
     return math.sqrt(variance), (4.0 * spread - 2.0) / (spread - 1.0)

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/noise/mean_error.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/analyze.hpp>
 
@@ -23,19 +24,23 @@ std::string complaint(study::AxisRecord axis, const config::Analysis& c = {}) {
         [&] { (void)study::analyze_axis({.config = c}, std::move(axis)); });
 }
 
+double sigma_of(const std::vector<double>& rates) { return noise::mean_error(rates).sigma; }
+
 TEST(Analyze, white_noise_with_gaps) {
     study::AxisRecord axis = white(20000, 5.0, 2.0, 1);
     for (std::size_t k = 5000; k < 5100; ++k) axis.rates_arcsec_s[k] = missing;
     for (std::size_t k = 9000; k < 9003; ++k) axis.rates_arcsec_s[k] = missing;
+    const double sigma = sigma_of(axis.rates_arcsec_s);
     const auto r = study::analyze_axis({}, std::move(axis));
     EXPECT_EQ(r.n_samples, 20000);
     EXPECT_EQ(r.n_known, 19897);
     ASSERT_EQ(r.n_gaps, 2);
     EXPECT_DOUBLE_EQ(r.gaps[0].from_s, 500.0);
     EXPECT_DOUBLE_EQ(r.gaps[0].to_s, 510.0);
-    // N = 2/sqrt(10); the mean of T s is known to N/sqrt(T).
-    EXPECT_NEAR(r.mean_sigma_arcsec_s, 2.0 / std::sqrt(19897.0), 2e-4);
-    EXPECT_NEAR(r.mean_arcsec_s, 5.0, 4.0 * r.mean_sigma_arcsec_s);
+    // The mean is that of white noise; its error cannot know that.
+    EXPECT_EQ(r.mean_sigma_arcsec_s, sigma);
+    EXPECT_GT(sigma, 2.0 / std::sqrt(19897.0));
+    EXPECT_NEAR(r.mean_arcsec_s, 5.0, 4.0 * 2.0 / std::sqrt(19897.0));
     ASSERT_FALSE(r.readouts.empty());
     EXPECT_EQ(r.readouts[0].what, "at 1 s");
     EXPECT_NEAR(r.readouts[0].deviation_arcsec_s, 2.0 / std::sqrt(10.0), 0.03);
@@ -43,6 +48,7 @@ TEST(Analyze, white_noise_with_gaps) {
 
 TEST(Analyze, a_sinusoid_is_no_part_of_the_mean) {
     study::AxisRecord axis = white(20003, 5.0, 2.0, 19);
+    const double still = sigma_of(axis.rates_arcsec_s);
     double shaken = 0.0;
     for (std::size_t k = 0; k < axis.rates_arcsec_s.size(); ++k) {
         const double sine = 1000.0 * std::sin(0.3 * static_cast<double>(k));
@@ -56,8 +62,8 @@ TEST(Analyze, a_sinusoid_is_no_part_of_the_mean) {
     const auto r = study::analyze_axis({}, std::move(axis));
     ASSERT_TRUE(r.fit);
     EXPECT_LT(shaken / static_cast<double>(r.n_known), -10.0);
-    EXPECT_NEAR(r.mean_sigma_arcsec_s, 2.0 / std::sqrt(20000.0), 2e-3);
-    EXPECT_NEAR(r.mean_arcsec_s, 5.0, 4.0 * r.mean_sigma_arcsec_s);
+    EXPECT_NEAR(r.mean_sigma_arcsec_s, still, 0.1 * still);
+    EXPECT_NEAR(r.mean_arcsec_s, 5.0, 4.0 * 2.0 / std::sqrt(20000.0));
 }
 
 TEST(Analyze, gaps_break_the_line_of_the_course) {
@@ -140,16 +146,36 @@ TEST(Analyze, readouts_are_of_the_allan_deviation_whatever_is_asked_for) {
     }
 }
 
-TEST(Analyze, the_error_of_a_short_mean_is_a_rate_whatever_is_asked_for) {
-    const study::AxisRecord axis = white(40, 0.0, 3.0, 13);
-    const auto expected = study::analyze_axis({}, axis);
-    const auto r = study::analyze_axis({.config = asking({config::Deviation::tdev})}, axis);
-    EXPECT_FALSE(r.fit);
-    EXPECT_GT(expected.mean_sigma_arcsec_s, 0.0);
-    EXPECT_EQ(r.mean_sigma_arcsec_s, expected.mean_sigma_arcsec_s);
-    // As of white noise: the longest deviation times sqrt(tau/T).
-    const auto& last = expected.curves.front().points.back();
-    EXPECT_DOUBLE_EQ(r.mean_sigma_arcsec_s, last.deviation * std::sqrt(last.tau_s / 4.0));
+// No fit finds a walk that crosses the white noise at 1/16 of the record, and the error of the mean has to know of it.
+TEST(Analyze, the_error_of_the_mean_counts_slow_noise_whatever_is_asked_for) {
+    study::AxisRecord axis = white(4096, 0.0, 3.0, 13);
+    const study::AxisRecord steps = white(4096, 0.0, 3.0 * std::sqrt(3.0) / 256.0, 23);
+    double walk = 0.0;
+    for (std::size_t k = 0; k < 4096; ++k) axis.rates_arcsec_s[k] += walk += steps.rates_arcsec_s[k];
+    for (const auto kind : {config::Deviation::oadev, config::Deviation::tdev})
+        for (const bool with_page : {true, false}) {
+            const auto r = study::analyze_axis({.config = asking({kind}), .with_page = with_page}, axis);
+            EXPECT_EQ(r.mean_sigma_arcsec_s, sigma_of(axis.rates_arcsec_s));
+            EXPECT_EQ(r.mean_degrees, noise::mean_error(axis.rates_arcsec_s).degrees);
+        }
+    EXPECT_GT(sigma_of(axis.rates_arcsec_s), 4.0 * 3.0 / std::sqrt(4096.0));
+}
+
+// The drift of the mode, in step with it, is in every such mean; that of the temperature is in this one.
+TEST(Analyze, the_error_of_the_mean_is_without_the_magnetic_drift_and_with_that_of_the_temperature) {
+    study::AxisRecord axis = white(40000, 0.0, 1.0, 21), switched = axis, warm = axis;
+    for (std::size_t k = 0; k < axis.rates_arcsec_s.size(); ++k) {
+        switched.mode.push_back((k / 3000) % 2 == 0 ? 1 : -1);
+        switched.rates_arcsec_s[k] += 10.0 * switched.mode.back();
+        warm.temperature_c.push_back(20.0 + 1e-3 * static_cast<double>(k));
+        warm.rates_arcsec_s[k] += 2.0 * (warm.temperature_c[k] - 40.0);
+    }
+    const double quiet = sigma_of(axis.rates_arcsec_s);
+    EXPECT_NEAR(study::analyze_axis({}, switched).mean_sigma_arcsec_s, quiet, 0.1 * quiet);
+    EXPECT_GT(sigma_of(switched.rates_arcsec_s), 10.0 * quiet);
+    const double drifting = sigma_of(warm.rates_arcsec_s);
+    EXPECT_GT(drifting, 10.0 * quiet);
+    EXPECT_NEAR(study::analyze_axis({}, warm).mean_sigma_arcsec_s, drifting, 1e-9 * drifting);
 }
 
 TEST(Analyze, a_missing_angle_costs_three_differences_at_every_averaging) {

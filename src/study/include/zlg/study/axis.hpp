@@ -59,9 +59,10 @@ struct AxisResult {
     double mean_arcsec_s = 0.0;  // without the sinusoids that were found
     // What the noise lets it differ by: see docs/noise.md, "Mean rate and the Earth". NaN: not known.
     double mean_sigma_arcsec_s = 0.0;
+    double mean_degrees = 1.0;                       // of freedom of that
     std::vector<deviations::DeviationCurve> curves;  // those asked for
-    // What readouts and the error of the mean are taken from: the first of oadev, adev, totdev that was asked for, or
-    // else oadev at octaves. Without points where the record has none.
+    // What readouts are taken from: the first of oadev, adev, totdev that was asked for, or else oadev at octaves.
+    // Without points where the record has none.
     deviations::DeviationCurve allan;
     std::optional<noise::NoiseFit> fit;
     std::string no_fit;                                 // why there is none
