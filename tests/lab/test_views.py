@@ -149,6 +149,8 @@ class Views(LivingPageCase):
     def test_exports_are_the_gyro_that_is_shown(self):
         with tempfile.TemporaryDirectory() as folder:
             self.browser.send("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            # Before the first ticks there is no error to draw.
+            self.browser.wait_until(lambda: self.time_s() > 1.0)
             self.pause()
             for name, button in (("gyro.toml", "toml"), ("signals.csv", "csv"), ("error.csv", "error-csv"), ("error.svg", "svg")):
                 self.browser.value(f"document.getElementById('export-{button}').click()")
