@@ -57,7 +57,7 @@ const std::array table{
     QuantityInfo{"warm_up.s",
                  "time from the start until the bias stays within [accept] warm_up_band_deg_h of its end",
                  "s",
-                 "a run from cold and the band",
+                 "a run from cold, long enough that it has settled, and the band",
                  {warm_up}},
     QuantityInfo{"magnetic_sensitivity.deg_h_mt",
                  "change of the bias with the field",

@@ -21,7 +21,6 @@ using noise::NoiseTerms;
 using study::AxisResult;
 
 constexpr double significance = 0.05;
-constexpr double z_95 = 1.6448536269514722;
 
 double known_s(const AxisResult& axis) { return static_cast<double>(axis.n_known) / axis.rate_hz; }
 

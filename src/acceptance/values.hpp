@@ -13,6 +13,8 @@
 
 namespace zlg::acceptance {
 
+inline constexpr double z_95 = 1.6448536269514722;  // of 95 % of a normal law
+
 // A record at rest, analysed.
 struct StillAxis {
     const Run* run = nullptr;
