@@ -6,28 +6,23 @@
 
 #include <fmt/format.h>
 
+#include <zlg/calibration/lab_log.hpp>
+
 #include "values.hpp"
 
 namespace zlg::acceptance {
 namespace {
 
-struct Mean {
-    double n = 0.0, value = 0.0, squares = 0.0;
-    void add(double x) {
-        n += 1.0;
-        const double before = x - value;
-        value += before / n;
-        squares += before * (x - value);
-    }
-};
+using calibration::Moments;
 
-Value mean_value(const char* name, const Mean& mean, double hours, double step, const char* missing) {
-    if (mean.n < 2.0) return not_determined(name, missing);
+Value mean_value(const char* name, const Moments& of, double hours, double step, const char* missing) {
+    if (of.n < 2) return not_determined(name, missing);
+    const auto n = static_cast<double>(of.n);
     return {.name = name,
             .determined = true,
-            .value = mean.value,
-            .uncertainty = std::sqrt(mean.squares / (mean.n - 1.0) / mean.n + step * step / 12.0),
-            .degrees = mean.n - 1.0,
+            .value = of.mean,
+            .uncertainty = std::sqrt(of.variance() / n + step * step / 12.0),
+            .degrees = n - 1.0,
             .hours = hours};
 }
 
@@ -84,7 +79,7 @@ std::vector<Value> constant_values(const study::CalibrationResult& found) {
 }
 
 std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const std::vector<StillAxis>& axes) {
-    Mean relock, miss;
+    Moments relock, miss;
     double hours = 0.0, longest = 0.0, sigma = 0.0, n = 0.0, half_s = 0.0;
     std::int64_t alarms = 0, withheld = 0, unsettled = 0;
     bool tells_interval = !logs.empty();
@@ -106,9 +101,9 @@ std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const st
     constexpr const char* none = "the logs hold no switch";
     std::vector<Value> all;
     all.push_back(
-        relock.n > 0.0 && unsettled > 0
+        relock.n > 0 && unsettled > 0
             ? not_determined("relock.s", fmt::format("after {} of {} switches detuning_lambda does not settle",
-                                                     unsettled, unsettled + std::llround(relock.n)))
+                                                     unsettled, unsettled + relock.n))
             : mean_value("relock.s", relock, hours, half_s, "needs two switches after which detuning_lambda settles"));
     all.push_back(n > 0.0 ? counted("gap.ticks", longest, hours) : not_determined("gap.ticks", none));
     all.push_back(mean_value("miss.lambda", miss, hours, 0.0, "needs two switches with detuning_lambda"));
