@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -26,16 +27,34 @@ Value mean_value(const char* name, const Moments& of, double hours, double step,
             .hours = hours};
 }
 
+// Whether the rotation changes while a switch lasts, gap and settling: the angles of neighbouring stretches of up to 64
+// samples differ by more than white noise of the shortest ones lets them, or a sinusoid swings.
+bool moves(const study::AxisResult& axis) {
+    constexpr std::int64_t of_switch = 64;
+    const auto& points = axis.allan.points;
+    const auto unit = [&points](const auto& p) {
+        return p.deviation * std::sqrt(p.tau_s) / (points.front().deviation * std::sqrt(points.front().tau_s));
+    };
+    if (std::ranges::any_of(points, [&](const auto& p) { return p.m <= of_switch && unit(p) > 2.0; })) return true;
+    const double third = axis.modes->statistics.rms_arcsec / 3.0;
+    return axis.fit && std::ranges::any_of(axis.fit->terms.sines, [third](const noise::SineTerm& s) {
+               return s.amplitude_arcsec_s > third * 2.0 * std::numbers::pi * s.frequency_hz;
+           });
+}
+
 // At rest the rotation over a switch is that of the segments beside it.
 Value error_value(const std::vector<StillAxis>& axes, double hours) {
+    constexpr const char* name = "switch_error.arcsec";
     double n = 0.0, squares = 0.0;
     for (const StillAxis& axis : axes) {
         if (axis.run->kind != RunKind::at_rest || !axis.result.modes) continue;
         const noise::SwitchStatistics& s = axis.result.modes->statistics;
+        if (s.n > 0 && moves(axis.result))
+            return not_determined(
+                name, fmt::format("run {}: the gyro turned unevenly, and by how much is not known", axis.run->number));
         n += static_cast<double>(s.n);
         squares += static_cast<double>(s.n) * s.rms_arcsec * s.rms_arcsec;
     }
-    constexpr const char* name = "switch_error.arcsec";
     if (n < 2.0) return not_determined(name, "needs a static raw log with two switches or more");
     return deviation(name, std::sqrt(squares / n), n, hours);
 }

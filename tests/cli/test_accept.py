@@ -180,6 +180,15 @@ class Accept(CliTest):
         self.assertEqual(quantities["half_wave.v"]["value"], constants["piezo.half_wave_v"]["value"])
         self.assertEqual(quantities["half_wave.v"]["uncertainty"], constants["piezo.half_wave_v"]["sigma"])
 
+    def test_the_error_of_a_switch_is_that_of_a_gyro_at_rest(self):
+        raw = self.at("raw.h5")
+        for motion, determined in [("rest", True), ("constant", True), ("sine", False), ("sum", False)]:
+            with self.subTest(motion):
+                self.assertEqual(run("simulate", "--duration", 200, "--set", f"motion.kind={motion}", "--out", raw, "--force").returncode, 0)
+                plan = self.plan([f'files = ["{raw.name}"]\nkind = "static"\n'])
+                error = self.judged(plan, 1)[1]["switch_error.arcsec"]
+                self.assertEqual(error["verdict"] != "not determined", determined, error)
+
     def report(self, name, seed=1, limit='"bias.deg_h" = { min = -1, max = 1 }\n', unit='serial = "A1"\ntype = "Z"\ndate = 2026-01-02\n'):
         log = self.rates("a.csv", white(5000, 1.0, seed=seed))
         plan = self.plan([self.static(log)], limit, unit)
