@@ -36,6 +36,11 @@ struct Turned {
 
 std::vector<double> planned_rates(const Run& run, std::size_t n, double rate_hz) {
     std::vector<double> rates(n, std::numeric_limits<double>::quiet_NaN());
+    const double length_s = static_cast<double>(n + 1) / rate_hz;
+    if (!(run.stages.back().to_s <= length_s))
+        throw config::ConfigError(
+            fmt::format("{}: stages end at {:g} s, and the record at {:g} s; allowed is within it", run.place,
+                        run.stages.back().to_s, static_cast<double>(n) / rate_hz));
     for (const Stage& stage : run.stages) {
         const auto at = [&](double time_s) {
             return std::min(n, static_cast<std::size_t>(std::ceil(time_s * rate_hz)));

@@ -1,4 +1,5 @@
 #include <zlg/acceptance/accept.hpp>
+#include <zlg/config/schema.hpp>
 #include <zlg/noise/mean_error.hpp>
 
 #include "records.hpp"
@@ -67,6 +68,19 @@ TEST(Accept, a_table_that_stands_or_turns_the_other_way_is_no_measurement) {
     for (double& rate : t.shown) rate *= -1.5;
     write("table.csv", {t.shown});
     EXPECT_NE(of(accepted(runs), "scale_factor.ppm").value.reason.find("unit, or the sensor"), std::string::npos);
+}
+
+TEST(Accept, stages_beyond_the_record_are_refused) {
+    const Table t = table({-10, -5, 0, 5, 10}, 1.0);
+    write("table.csv", {std::vector<double>(t.shown.begin(), t.shown.end() - 300)});
+    try {
+        (void)accepted(run("rate_table", "table.csv", t.stages));
+        ADD_FAILURE() << "taken";
+    } catch (const config::ConfigError& error) {
+        EXPECT_NE(std::string{error.what()}.find("[[run]] 1: stages end at 300 s, and the record at 270 s"),
+                  std::string::npos)
+            << error.what();
+    }
 }
 
 TEST(Accept, the_threshold_is_the_least_rate_that_shows) {
