@@ -101,7 +101,7 @@ std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const st
     Moments relock, miss;
     double hours = 0.0, longest = 0.0, sigma = 0.0, n = 0.0, half_s = 0.0;
     std::int64_t alarms = 0, withheld = 0, unsettled = 0;
-    bool tells_interval = !logs.empty();
+    bool tells_interval = !logs.empty(), is_dead = false;
     for (const SwitchRecord& log : logs) {
         hours += log.hours;
         alarms += log.alarms;
@@ -109,6 +109,7 @@ std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const st
         half_s = log.half_s;
         tells_interval = tells_interval && log.withheld.has_value();
         withheld += log.withheld.value_or(0);
+        is_dead = is_dead || log.detuning_is_dead;
         for (const double s : log.relock_s) relock.add(s);
         for (const study::SwitchLine& line : log.lines) {
             n += 1.0;
@@ -119,13 +120,18 @@ std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const st
     }
     constexpr const char* none = "the logs hold no switch";
     std::vector<Value> all;
-    all.push_back(
-        relock.n > 0 && unsettled > 0
-            ? not_determined("relock.s", fmt::format("after {} of {} switches detuning_lambda does not settle",
-                                                     unsettled, unsettled + relock.n))
-            : mean_value("relock.s", relock, hours, half_s, "needs two switches after which detuning_lambda settles"));
+    constexpr const char* dead = "needs detuning_lambda, which is absent or one value throughout";
+    if (is_dead)
+        all.push_back(not_determined("relock.s", dead));
+    else if (relock.n > 0 && unsettled > 0)
+        all.push_back(not_determined("relock.s", fmt::format("after {} of {} switches detuning_lambda does not settle",
+                                                             unsettled, unsettled + relock.n)));
+    else
+        all.push_back(
+            mean_value("relock.s", relock, hours, half_s, "needs two switches after which detuning_lambda settles"));
     all.push_back(n > 0.0 ? counted("gap.ticks", longest, hours) : not_determined("gap.ticks", none));
-    all.push_back(mean_value("miss.lambda", miss, hours, 0.0, "needs two switches with detuning_lambda"));
+    all.push_back(is_dead ? not_determined("miss.lambda", dead)
+                          : mean_value("miss.lambda", miss, hours, 0.0, "needs two switches with detuning_lambda"));
     all.push_back(n > 0.0 && std::isfinite(sigma)
                       ? counted("switch_sigma.arcsec", std::sqrt(sigma / n), hours)
                       : not_determined("switch_sigma.arcsec", n > 0.0 ? "a switch has no finite sigma" : none));

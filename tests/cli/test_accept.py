@@ -189,6 +189,21 @@ class Accept(CliTest):
                 error = self.judged(plan, 1)[1]["switch_error.arcsec"]
                 self.assertEqual(error["verdict"] != "not determined", determined, error)
 
+    def test_a_lock_that_does_not_settle_and_a_dead_detuning_give_no_time_of_relock(self):
+        raw = self.at("raw.csv")
+        self.assertEqual(run("simulate", "--duration", 200, "--set", "motion.kind=rest", "--out", raw).returncode, 0)
+        whole = raw.read_text().splitlines()
+        names = next(line for line in whole if line.startswith("half,")).split(",")
+        at, first = names.index("detuning_lambda"), whole.index(",".join(names)) + 1
+        for column, why in [(lambda value: value + 0.1, "switches detuning_lambda does not settle"), (lambda value: 0.001, "absent or one value throughout")]:
+            rows = [line.split(",") for line in whole[first:]]
+            for row in rows:
+                row[at] = repr(column(float(row[at])))
+            raw.write_text("\n".join(whole[:first] + [",".join(row) for row in rows]) + "\n")
+            relock = self.judged(self.plan([f'files = ["{raw.name}"]\nkind = "switching"\n']), 1)[1]["relock.s"]
+            self.assertEqual(relock["verdict"], "not determined")
+            self.assertIn(why, relock["reason"])
+
     def report(self, name, seed=1, limit='"bias.deg_h" = { min = -1, max = 1 }\n', unit='serial = "A1"\ntype = "Z"\ndate = 2026-01-02\n'):
         log = self.rates("a.csv", white(5000, 1.0, seed=seed))
         plan = self.plan([self.static(log)], limit, unit)
