@@ -39,9 +39,9 @@ public:
             if (task_.on_progress)
                 task_.on_progress(static_cast<double>(run.number - 1) / static_cast<double>(result_.plan.runs.size()));
             records_.push_back(read_run(result_.plan, run, task_.said));
+            require_new(records_.back());
             analyze(records_.back());
         }
-        look_for_twins();
         const Found moved = moved_values();
         std::ranges::for_each(records_, [this](const RunRecord& record) { note(record); });
         std::vector<Value> values = moved.values;
@@ -107,16 +107,12 @@ private:
         result_.runs.push_back(std::move(tested));
     }
 
-    // The same measurement under two names would agree with itself too well.
-    void look_for_twins() const {
-        for (std::size_t k = 0; k < records_.size(); ++k)
-            for (std::size_t j = 0; j < k; ++j)
-                if (records_[j].run->kind == records_[k].run->kind)
-                    for (const LogRecord& log : records_[k].logs)
-                        if (std::ranges::find(records_[j].logs, log.checksum, &LogRecord::checksum) !=
-                            records_[j].logs.end())
-                            throw logs::FormatError(fmt::format(
-                                "{}: is a log of run {} once more; each measurement counts once", log.path, j + 1));
+    // A measurement under two names, or in two runs of one kind, would agree with itself too well.
+    void require_new(const RunRecord& record) {
+        for (const LogRecord& log : record.logs)
+            if (!seen_.emplace(record.run->kind, log.checksum).second)
+                throw logs::FormatError(fmt::format("{}: {} is in the plan once more; each measurement counts once",
+                                                    record.run->place, log.path));
     }
 
     [[nodiscard]] std::vector<std::string> raw_logs() const {
@@ -177,6 +173,7 @@ private:
     std::vector<RunRecord> records_;
     std::vector<StillAxis> still_, in_field_;
     std::map<int, double> hours_;
+    std::set<std::pair<RunKind, std::uint64_t>> seen_;
 };
 
 }  // namespace

@@ -179,14 +179,6 @@ void read_axes(const Plan& plan, const logs::ForeignLook& look, RunRecord& recor
     record.table_rates_arcsec_s = std::move(imported.table_rates_arcsec_s);
 }
 
-void look_for_twins(const RunRecord& record) {
-    for (std::size_t k = 1; k < record.logs.size(); ++k)
-        for (std::size_t j = 0; j < k; ++j)
-            if (record.logs[j].checksum == record.logs[k].checksum)
-                throw logs::FormatError(fmt::format("{}: is {} once more; two logs of one run cannot be of one time",
-                                                    record.logs[k].path, record.logs[j].path));
-}
-
 }  // namespace
 
 logs::RawReader open_raw(const Run& run, const std::string& path, std::vector<std::string>& notes) {
@@ -211,7 +203,6 @@ RunRecord read_run(const Plan& plan, const Run& run, const config::Config& said)
         else
             foreign.push_back(path);
     }
-    look_for_twins(record);
     if (foreign.empty()) return record;
     if (foreign.size() != run.files.size())
         throw config::ConfigError(
