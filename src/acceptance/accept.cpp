@@ -12,6 +12,7 @@
 #include <zlg/study/how_made.hpp>
 
 #include "moved_values.hpp"
+#include "repeated_stretch.hpp"
 #include "values.hpp"
 
 namespace zlg::acceptance {
@@ -40,6 +41,9 @@ public:
                 task_.on_progress(static_cast<double>(run.number - 1) / static_cast<double>(result_.plan.runs.size()));
             records_.push_back(read_run(result_.plan, run, task_.said));
             require_new(records_.back());
+            for (const study::AxisRecord& axis : records_.back().axes)
+                if (const std::string line = repeated_stretch(axis.rates_arcsec_s); !line.empty())
+                    records_.back().stops.push_back(fmt::format("{}: {}", axis.name, line));
             analyze(records_.back());
         }
         const Found moved = moved_values();

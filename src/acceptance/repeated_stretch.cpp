@@ -1,0 +1,82 @@
+#include "repeated_stretch.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace zlg::acceptance {
+namespace {
+
+// How often two of 64 neighbours are equal.
+double equal_share(const std::vector<double>& values) {
+    constexpr std::size_t block = 64;
+    double equal = 0.0, all = 0.0;
+    for (std::size_t from = 0; from + block <= values.size(); from += block) {
+        std::vector<double> sorted(values.begin() + static_cast<std::ptrdiff_t>(from),
+                                   values.begin() + static_cast<std::ptrdiff_t>(from + block));
+        std::ranges::sort(sorted);
+        double n = 1.0;
+        for (std::size_t k = 1; k < block; ++k) {
+            n = sorted[k] == sorted[k - 1] ? n + 1.0 : 1.0;
+            equal += n - 1.0;
+        }
+        all += 0.5 * block * (block - 1);
+    }
+    return all > 0.0 ? equal / all : 1.0;
+}
+
+// Of a stretch that repeats by no chance; more than there are: none does.
+std::size_t telling_length(const std::vector<double>& values) {
+    constexpr double shortest = 32.0, rare = 20.7;  // -log(1e-9)
+    const double n = static_cast<double>(values.size()), share = equal_share(values);
+    const double length = share > 0.0 ? 2.0 * (2.0 * std::log(n) + rare) / -std::log(share) : shortest;
+    return length < n ? static_cast<std::size_t>(std::max(shortest, std::ceil(length))) : values.size() + 1;
+}
+
+std::uint64_t bits_of(double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value) * 0x9e3779b97f4a7c15u;
+    return bits ^ (bits >> 32);
+}
+
+}  // namespace
+
+// A rolling sum over every stretch is looked up among those at whole lengths before it (Karp and Rabin, 1987).
+std::string repeated_stretch(std::span<const double> values) {
+    constexpr std::uint64_t base = 0xd1342543de82ef95u;
+    std::vector<double> known;
+    std::vector<std::size_t> rows;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (std::isfinite(values[k])) known.push_back(values[k]), rows.push_back(k + 1);
+    const std::size_t length = telling_length(known);
+    if (2 * length > known.size()) return {};
+    const auto at = [&known](std::size_t k) { return known.begin() + static_cast<std::ptrdiff_t>(k); };
+    std::uint64_t sum = 0, highest = 1;
+    for (std::size_t k = 1; k < length; ++k) highest *= base;
+    for (std::size_t k = 0; k + 1 < length; ++k) sum = sum * base + bits_of(known[k]);
+    std::unordered_map<std::uint64_t, std::size_t> whole;
+    for (std::size_t k = 0; k + length <= known.size(); ++k) {
+        sum = sum * base + bits_of(known[k + length - 1]);
+        const auto found = whole.find(sum);
+        if (found != whole.end() && found->second + length <= k &&
+            std::equal(at(k), at(k + length), at(found->second)) &&
+            std::adjacent_find(at(k), at(k + length), std::not_equal_to{}) != at(k + length)) {
+            std::size_t from = k, to = k + length;
+            const std::size_t apart = k - found->second;
+            while (from > apart && known[from - 1] == known[from - 1 - apart]) --from;
+            while (to < known.size() && known[to] == known[to - apart]) ++to;
+            return fmt::format("samples {} to {} are those from {} on once more", rows[from], rows[to - 1],
+                               rows[from - apart]);
+        }
+        if (k % length == 0) whole.emplace(sum, k);
+        sum -= highest * bits_of(known[k]);
+    }
+    return {};
+}
+
+}  // namespace zlg::acceptance
