@@ -47,7 +47,12 @@ public:
             analyze(records_.back());
         }
         const Found moved = moved_values();
-        std::ranges::for_each(records_, [this](const RunRecord& record) { note(record); });
+        for (RunRecord& record : records_) {
+            const bool has_counts = record.run->mapping.has("scale_arcsec") || !record.raw_logs.empty();
+            if (has_counts && record.run->kind != RunKind::rate_table && !moved.wrong_scale.empty())
+                record.stops.push_back(moved.wrong_scale);
+            note(record);
+        }
         std::vector<Value> values = moved.values;
         const auto take = [&](std::vector<Value> more) { std::ranges::move(more, std::back_inserter(values)); };
         // What raw logs tell goes before what the noise of any record does.
@@ -90,6 +95,7 @@ private:
         const auto take = [&](Found found) {
             std::ranges::move(found.values, std::back_inserter(all.values));
             std::ranges::move(found.figures, std::back_inserter(result_.figures));
+            if (!found.wrong_scale.empty()) all.wrong_scale = found.wrong_scale;
         };
         if (const auto tables = of_kind(RunKind::rate_table); !tables.empty())
             take(table_values(result_.plan, tables, task_.said.analysis));

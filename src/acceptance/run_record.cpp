@@ -54,6 +54,17 @@ void require_serial(const Plan& plan, const std::string& found, const std::strin
                                           text::excerpt(found, 60, ' '), text::excerpt(plan.unit.serial, 60, ' ')));
 }
 
+// A gyro is no more than that off its nominal scale: else one of the two is of another.
+void require_scale(const Plan& plan, double found_arcsec, const std::string& where) {
+    constexpr double apart = 0.01;
+    const auto& nominal = plan.unit.scale_arcsec;
+    if (!nominal || std::abs(found_arcsec / *nominal - 1.0) <= apart) return;
+    throw config::ConfigError(
+        fmt::format("{}: a count is {:g} arcsec there, and {:g} by scale_arcsec of [unit]; "
+                    "allowed is one scale, to 1 %",
+                    where, found_arcsec, *nominal));
+}
+
 void check_serial(const Plan& plan, const logs::Settings& settings, const std::string& path) {
     for (const auto& [key, value] : settings) {
         const std::string last = key.substr(key.find_last_of('.') + 1);
@@ -61,14 +72,21 @@ void check_serial(const Plan& plan, const logs::Settings& settings, const std::s
     }
 }
 
-// "Serial number: 17", "S/N;17" above the columns.
-void check_serial(const Plan& plan, const std::vector<std::string>& head, const std::string& path) {
+// "Serial number: 17", "S/N;17", "Scale factor: 3.26 arcsec/count" above the columns.
+void check_head(const Plan& plan, const std::vector<std::string>& head, const std::string& path) {
     static const std::regex serial{
         R"((?:^|[^a-z])(?:serial(?:[ _]?(?:number|no\.?|nr\.?))?|s/n)\s*[:=;,\t]\s*"?([^\s;,"]+))", std::regex::icase};
+    static const std::regex scale{
+        R"((?:scale|lsb|resolution|count|pulse)[^0-9]{0,40}([0-9]+(?:[.,][0-9]+)?(?:e[+-]?[0-9]+)?)\s*(?:arc[ -]?sec|"|'')))",
+        std::regex::icase};
     for (const std::string& line : head) {
         std::smatch found;
         const std::string start = line.substr(0, 400);
         if (std::regex_search(start, found, serial)) require_serial(plan, found[1], path);
+        if (!std::regex_search(start, found, scale)) continue;
+        std::string number = found[1];
+        std::ranges::replace(number, ',', '.');
+        require_scale(plan, std::stod(number), fmt::format("{}, '{}'", path, text::excerpt(line, 60, ' ')));
     }
 }
 
@@ -86,7 +104,9 @@ config::Config log_config(const Plan& plan, const config::Config& said, const lo
         settings, [](const auto& pair) { return pair.first == "scale_arcsec" || pair.first == "gyro.scale_arcsec"; });
     if (plan.unit.scale_arcsec && !says_scale && !config::is_given(over, "gyro.scale_arcsec"))
         config::apply_pair(over, "gyro.scale_arcsec", fmt::format("{}", *plan.unit.scale_arcsec), plan.path);
-    return recorded::config_of_log(over, settings, path, scale_is_used);
+    config::Config config = recorded::config_of_log(over, settings, path, scale_is_used);
+    if (says_scale) require_scale(plan, config.gyro.scale_arcsec, path);
+    return config;
 }
 
 // Values that may be no measurements stop the verdicts.
@@ -161,7 +181,8 @@ void read_raw(const Plan& plan, const config::Config& said, const std::string& p
 
 void read_axes(const Plan& plan, const logs::ForeignLook& look, RunRecord& record) {
     const std::string& path = look.table.path;
-    check_serial(plan, look.table.head, path);
+    check_head(plan, look.table.head, path);
+    if (const auto scale = look.mapping.real("scale_arcsec")) require_scale(plan, *scale, record.run->place);
     for (const auto* lines : {&look.table.notes, &look.said}) add(record.notes, path, *lines);
     logs::ImportedAxes imported = logs::imported_axes(look);
     add(record.notes, path, imported.notes);

@@ -168,6 +168,10 @@ Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, con
         degrees += t.degrees();
         hours += t.hours;
         found.figures.push_back(residual_figure(t, found.figures.size()));
+        if (plan.unit.scale_arcsec && !(std::abs(k.value - 1.0) <= 0.1))
+            found.wrong_scale =
+                fmt::format("the rate table of run {} shows {:.4g} of the nominal scale, scale_arcsec = {:g}",
+                            t.record->run->number, k.value, *plan.unit.scale_arcsec);
     }
     found.values.push_back(together(scales));
     found.values.push_back(deviation(nonlinearity, std::sqrt(squares / degrees), degrees, hours));

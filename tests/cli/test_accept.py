@@ -269,6 +269,28 @@ class Accept(CliTest):
         self.refusal(2, log, again)
         self.refusal(2, "--plan", "--verify", log)
 
+    def test_a_scale_that_the_plan_contradicts_is_named(self):
+        unit = 'serial = "A1"\nscale_arcsec = 2.0\n'
+        counts = "".join(f"{round(v)}\n" for v in white(2000, 20.0).tolist())
+        mapped = 'holds = "increment"\nunit = "counts"\nrate_hz = 10\n'
+        log = self.write("a.csv", f"Scale factor: 3,263 arcsec/count\npulses\n{counts}")
+        self.assertIn("a count is 3.263 arcsec there, and 2 by scale_arcsec of [unit]",
+                      self.refusal(2, self.plan([self.static(log, mapped=mapped)], unit=unit)))
+        agrees = unit.replace("2.0", "3.27")
+        self.judged(self.plan([self.static(log, mapped=mapped)], unit=agrees), 1)
+        self.assertIn("and 3.27 by", self.refusal(2, self.plan([self.static(log, mapped=mapped + "scale_arcsec = 5\n")], unit=agrees)))
+        raw = self.at("raw.csv")
+        self.assertEqual(run("simulate", "--duration", 20, "--out", raw).returncode, 0)
+        self.assertIn("and 2 by", self.refusal(2, self.plan([self.static(raw, mapped="")], unit=unit)))
+        # What the rate table shows of the nominal scale stops the static run too.
+        rates = [-20.0, -10.0, 0.0, 10.0, 20.0]
+        turned = "".join(f"{round(360.0 * rate / 3.0 + v)}\n" for rate in rates for v in white(600, 3.0).tolist())
+        table = self.write("table.csv", "pulses\n" + turned)
+        still = self.write("still.csv", "pulses\n" + counts)
+        stages = ", ".join(f"{{ from_s = {60 * k}, to_s = {60 * k + 60}, rate_deg_s = {rate} }}" for k, rate in enumerate(rates))
+        plan = self.plan([self.static(still, mapped=mapped), f'files = ["{table.name}"]\nkind = "rate_table"\nstages = [{stages}]\n{mapped}'], unit=unit)
+        self.assertIn("the rate table of run 2 shows 0.6667 of the nominal scale", self.judged(plan, 1)[1]["bias.deg_h"]["reason"])
+
     def test_two_logs_of_one_run_may_not_overlap(self):
         rates = white(400, 1.0).tolist()
         row = "2026-01-02T10:{:02d}:{:02d}.{:d},{!r}\n"
