@@ -106,6 +106,19 @@ const QuantityInfo* find_quantity(std::string_view name) {
     return found == table.end() ? nullptr : &*found;
 }
 
+bool is_magnitude(std::string_view name) {
+    constexpr std::array<std::string_view, 9> with_sign{"bias.deg_h",
+                                                        "ramp.deg_h_h",
+                                                        "scale_factor.ppm",
+                                                        "scale_asymmetry.ppm",
+                                                        "bias_temperature.deg_h_c",
+                                                        "magnetic_sensitivity.deg_h_mt",
+                                                        "magnetic_drift.deg_h",
+                                                        "magnetic_thermal.deg_h",
+                                                        "bias_frequency_temperature.per_c"};
+    return std::ranges::find(with_sign, name) == with_sign.end();
+}
+
 std::string unknown_quantity(std::string_view name) {
     const std::string shown = text::excerpt(name, 60, ' ');
     for (const QuantityInfo& q : table)

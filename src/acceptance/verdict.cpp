@@ -26,9 +26,16 @@ double poisson_above(const Value& v, double x) {
     return boost::math::gamma_q(std::round(v.value * v.hours) + 1.0, x * v.hours);
 }
 
+// A magnitude is below 0 with no probability, whatever its error; a value without one is where it is.
+double probability_below(const Value& v, double x) {
+    if (x <= 0.0 && is_magnitude(v.name)) return 0.0;
+    if (v.law == Law::without_error || v.uncertainty == 0.0) return v.value < x ? 1.0 : 0.0;
+    return 1.0 - probability_above(v, x);
+}
+
 double beyond(const Value& v, const Limit& limit) {
     return std::min(1.0, (limit.max ? probability_above(v, *limit.max) : 0.0) +
-                             (limit.min ? 1.0 - probability_above(v, *limit.min) : 0.0));
+                             (limit.min ? probability_below(v, *limit.min) : 0.0));
 }
 
 std::optional<Verdict> verdict_of(const Value& v, const Limit& limit, double risk) {

@@ -24,6 +24,8 @@ struct QuantityInfo {
 [[nodiscard]] std::span<const QuantityInfo> quantities();
 // nullptr: there is none.
 [[nodiscard]] const QuantityInfo* find_quantity(std::string_view name);
+// Never below 0: a deviation, a time, a number.
+[[nodiscard]] bool is_magnitude(std::string_view name);
 // Of a name that is none: the nearest one, and the unit where only that is wrong.
 [[nodiscard]] std::string unknown_quantity(std::string_view name);
 
