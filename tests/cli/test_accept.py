@@ -242,6 +242,11 @@ class Accept(CliTest):
         result = run("accept", plan, "--history", self.at("old"))
         self.assertEqual(result.returncode, 0, result.stderr)
         rows = result.stdout[result.stdout.index("Earlier tests"):]
+        # The same reports once more, and one of this test, made without the others.
+        self.at("old/copy.html").write_bytes(self.at("old/1.html").read_bytes())
+        self.assertEqual(run("accept", plan, "--out", self.at("old/own.html")).returncode, 0)
+        again = run("accept", plan, "--history", self.at("old")).stdout
+        self.assertEqual(again[again.index("Earlier tests"):], rows)
         self.assertLess(rows.index("A0"), rows.index("A1"))
         self.assertNotIn("B0", rows)
         page = self.at("old/1.html")
