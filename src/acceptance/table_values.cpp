@@ -9,7 +9,6 @@
 #include <zlg/calibration/rate_table.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/deviations/series.hpp>
-#include <zlg/report/number_text.hpp>
 
 #include "moved_values.hpp"
 
@@ -93,17 +92,6 @@ Value threshold_of(const Turned& of) {
     return v;
 }
 
-report::Figure residual_figure(const Turned& of, std::size_t index) {
-    report::Figure f = report::blank_figure(fmt::format("residuals-{}", index + 1),
-                                            fmt::format("Residuals of run {}", of.record->run->number),
-                                            "Output less the straight line, at each stage.", "rate of the table, deg/s",
-                                            "residual, ppm of the largest output");
-    report::Series points = report::blank_series("stages", report::Mark::points);
-    for (const TableStage& s : of.table.stages) report::add_point(points, s.input_arcsec_s / 3600.0, s.residual_ppm);
-    f.series = {std::move(points)};
-    return f;
-}
-
 std::vector<Turned> tables_of(const Plan& plan, const std::vector<RunRecord*>& records,
                               const config::Analysis& config) {
     std::vector<Turned> tables;
@@ -118,11 +106,8 @@ std::vector<Turned> tables_of(const Plan& plan, const std::vector<RunRecord*>& r
             Turned found{.record = record, .table = {}, .hours = static_cast<double>(n) / axis.rate_hz / 3600.0};
             if (plan.unit.scale_arcsec && !record->configs.empty())
                 found.nominal = *plan.unit.scale_arcsec / record->configs.front().gyro.scale_arcsec;
-            const calibration::RateTableOptions options{
-                .settling_samples = static_cast<std::int64_t>(
-                    std::min(std::ceil(config.table_settling_s * axis.rate_hz), static_cast<double>(n))),
-                .earth_arcsec_s =
-                    config.table_earth_arcsec_s + earth_about(plan.unit, record->run->axis).value_or(0.0)};
+            auto options = study::table_options(config, axis.rate_hz, n);
+            options.earth_arcsec_s += earth_about(plan.unit, record->run->axis).value_or(0.0);
             try {
                 found.table = calibration::rate_table(
                     by_plan ? planned_rates(*record->run, n, axis.rate_hz) : record->table_rates_arcsec_s,
@@ -167,7 +152,8 @@ Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, con
         squares += t.table.nonlinearity_ppm * t.table.nonlinearity_ppm * static_cast<double>(t.table.stages.size());
         degrees += t.degrees();
         hours += t.hours;
-        found.figures.push_back(residual_figure(t, found.figures.size()));
+        found.figures.push_back(study::residual_figure(config, t.table, fmt::format("run {}", t.record->run->number),
+                                                       found.figures.size()));
         if (plan.unit.scale_arcsec && !(std::abs(k.value - 1.0) <= 0.1))
             found.wrong_scale =
                 fmt::format("the rate table of run {} shows {:.4g} of the nominal scale, scale_arcsec = {:g}",
