@@ -109,11 +109,24 @@ config::Config log_config(const Plan& plan, const config::Config& said, const lo
     return config;
 }
 
-// Values that may be no measurements stop the verdicts.
+// Values that may be no measurements, and holes, stop the verdicts. The gap of a switch, of up to 32 samples, is none.
+void look_at(const study::AxisRecord& axis, const std::string& path, RunRecord& record) {
+    add(record.stops, path, axis.warnings);
+    const std::size_t of_switch = axis.mode.empty() ? 0 : 32;
+    std::size_t missing = 0, gap = 0;
+    for (const double rate : axis.rates_arcsec_s) {
+        gap = std::isfinite(rate) ? 0 : gap + 1;
+        if (gap > of_switch) missing += gap == of_switch + 1 ? gap : 1;
+    }
+    if (missing * 100 > axis.rates_arcsec_s.size())
+        add(record.stops, path,
+            {fmt::format("{} of {} samples are missing; allowed is one in 100", missing, axis.rates_arcsec_s.size())});
+}
+
 void finish(study::TickRates& ticks, const std::string& path, RunRecord& record) {
     const std::size_t first = record.axes.size();
     ticks.finish(record.axes);
-    add(record.stops, path, record.axes[first].warnings);
+    look_at(record.axes[first], path, record);
 }
 
 void read_angles(const Plan& plan, const config::Config& said, const std::string& path, RunRecord& record) {
@@ -190,11 +203,7 @@ void read_axes(const Plan& plan, const logs::ForeignLook& look, RunRecord& recor
         throw config::ConfigError(
             fmt::format("{}: {} axes; a unit has one: axis = COLUMN", record.run->place, imported.axes.size()));
     study::AxisRecord axis = study::axis_of(path, std::move(imported.axes.front()));
-    add(record.stops, path, axis.warnings);
-    const auto missing = std::ranges::count_if(axis.rates_arcsec_s, [](double rate) { return !std::isfinite(rate); });
-    if (missing * 100 > std::ssize(axis.rates_arcsec_s))
-        add(record.stops, path,
-            {fmt::format("{} of {} samples are missing; allowed is one in 100", missing, axis.rates_arcsec_s.size())});
+    look_at(axis, path, record);
     axis.temperature_c = std::move(imported.temperature_c);
     record.axes.push_back(std::move(axis));
     record.table_rates_arcsec_s = std::move(imported.table_rates_arcsec_s);

@@ -194,6 +194,58 @@ TEST(Accept, a_stretch_that_stands_twice_is_no_measurement) {
     EXPECT_NE(bias(coarse).reason.find("once more"), std::string::npos);
 }
 
+TEST(Accept, one_missing_sample_in_a_hundred_is_borne_and_more_are_not) {
+    const auto bias = [](std::size_t every) {
+        std::vector<double> rates = white(5000, 1.0);
+        for (std::size_t k = every; k < rates.size(); k += every) rates[k] = NAN;
+        write("rest.csv", {rates});
+        return of(accepted(run("static", "rest.csv")), "bias.deg_h").value;
+    };
+    EXPECT_TRUE(bias(101).determined);
+    EXPECT_NE(bias(98).reason.find("51 of 5000 samples are missing; allowed is one in 100"), std::string::npos);
+}
+
+// The slope is the mean of the runs, the hysteresis and the time of warming the largest of them.
+TEST(Accept, several_runs_are_one_gyro) {
+    std::string runs;
+    for (std::uint64_t r = 1; r <= 2; ++r) {
+        const std::size_t n = 36000;
+        std::vector<double> rates = white(n, 1.0, r), temperature(n);
+        for (std::size_t k = 0; k < n; ++k) {
+            const bool warms = k < n / 2;
+            temperature[k] = 20.0 + 40.0 * static_cast<double>(warms ? k : n - k) / static_cast<double>(n);
+            rates[k] += 0.1 * static_cast<double>(r) * temperature[k] + (warms ? 0.5 : -0.5) * static_cast<double>(r);
+        }
+        write(fmt::format("warm_{}.csv", r), {rates, temperature});
+        runs += run("temperature", fmt::format("warm_{}.csv", r), "temperature_c = 2\n");
+        std::vector<double> cold = white(144000, 1.0, r + 2);
+        for (std::size_t k = 0; k < cold.size(); ++k)
+            cold[k] += 5.0 * std::exp(-static_cast<double>(k) / n_per_s / (200.0 * static_cast<double>(r)));
+        write(fmt::format("cold_{}.csv", r), {cold});
+        runs += run("warm_up", fmt::format("cold_{}.csv", r));
+    }
+    const auto test = accepted(runs, "", "warm_up_band_deg_h = 0.1\n");
+    const auto &slope = of(test, "bias_temperature.deg_h_c").value, &width = of(test, "bias_hysteresis.deg_h").value,
+               &time = of(test, "warm_up.s").value;
+    EXPECT_NEAR(slope.value, 0.15, 0.01);
+    // They differ by more than their noise: 0.1 apart, 0.05 of the mean of two, with one degree.
+    EXPECT_NEAR(slope.uncertainty, 0.05, 0.01);
+    EXPECT_EQ(slope.degrees, 1.0);
+    EXPECT_LT(std::abs(width.value - 2.0), 4.0 * width.uncertainty);
+    EXPECT_LT(std::abs(time.value - 400.0 * std::log(50.0)), 2.0 * time.uncertainty);
+}
+
+TEST(Accept, a_unit_that_does_not_pass_has_no_risk) {
+    write("rest.csv", {white(5000, 1.0)});
+    const auto risk = [](const char* limit) {
+        return accepted(run("static", "rest.csv"), fmt::format("'bias.deg_h' = {{ max = {} }}\n", limit)).unit_risk;
+    };
+    ASSERT_TRUE(risk("1"));
+    EXPECT_LT(*risk("1"), 0.05);
+    EXPECT_FALSE(risk("0"));
+    EXPECT_FALSE(risk("-1"));
+}
+
 TEST(Accept, what_no_run_gives_says_what_it_needs) {
     write("rest.csv", {white(2000, 1.0)});
     const auto test = accepted(run("static", "rest.csv"));

@@ -195,6 +195,17 @@ class Accept(CliTest):
         whole = raw.read_text().splitlines()
         names = next(line for line in whole if line.startswith("half,")).split(",")
         at, first = names.index("detuning_lambda"), whole.index(",".join(names)) + 1
+        # A value of the noise that calibrate refuses of so short a record is that of the record at rest.
+        constants = json.loads(run("calibrate", raw, "--json").stdout)["constants"]
+        self.assertNotIn("drift.random_walk_arcsec_sqrt_s", constants)
+        plan = self.plan([f'files = ["{raw.name}"]\nkind = "static"\n'])
+        self.assertEqual(self.judged(plan, 1)[1]["angle_random_walk.deg_sqrt_h"]["verdict"], None)
+        # Three seconds of two hundred without a measurement.
+        rows = [line.split(",") for line in whole[first:]]
+        for row in rows[20000:21200]:
+            row[names.index("valid")] = "0"
+        raw.write_text("\n".join(whole[:first] + [",".join(row) for row in rows]) + "\n")
+        self.assertIn("samples are missing", self.judged(plan, 1)[1]["bias.deg_h"]["reason"])
         for column, why in [(lambda value: value + 0.1, "switches detuning_lambda does not settle"), (lambda value: 0.001, "absent or one value throughout")]:
             rows = [line.split(",") for line in whole[first:]]
             for row in rows:
