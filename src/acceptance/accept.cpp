@@ -20,13 +20,6 @@ namespace {
 
 bool is_still(RunKind kind) { return kind == RunKind::at_rest || kind == RunKind::switching; }
 
-double hours_of(const RunRecord& record) {
-    double hours = 0.0;
-    for (const study::AxisRecord& axis : record.axes)
-        hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
-    return hours;
-}
-
 class Test {
 public:
     explicit Test(const AcceptTask& task) : task_{task} {
@@ -41,9 +34,7 @@ public:
                 task_.on_progress(static_cast<double>(run.number - 1) / static_cast<double>(result_.plan.runs.size()));
             records_.push_back(read_run(result_.plan, run, task_.said));
             require_new(records_.back());
-            for (const study::AxisRecord& axis : records_.back().axes)
-                if (const std::string line = repeated_stretch(axis.rates_arcsec_s); !line.empty())
-                    records_.back().stops.push_back(fmt::format("{}: {}", axis.name, line));
+            look_at(records_.back());
             analyze(records_.back());
         }
         const Found moved = moved_values();
@@ -75,8 +66,6 @@ private:
                 if (const std::string why = wrong_way(result_.plan, found); !why.empty()) record.stops.push_back(why);
                 std::ranges::move(study::axis_figures(task.config, found.result, still_.size() + in_field_.size()),
                                   std::back_inserter(result_.figures));
-                hours_[record.run->number] +=
-                    static_cast<double>(found.result.n_samples) / found.result.rate_hz / 3600.0;
                 (is_still(kind) ? still_ : in_field_).push_back(std::move(found));
             } catch (const deviations::SeriesError& error) {
                 record.stops.emplace_back(error.what());
@@ -109,12 +98,20 @@ private:
         const Run& run = *record.run;
         TestedRun tested{.number = run.number,
                          .kind = run.kind,
-                         .hours = hours_.contains(run.number) ? hours_[run.number] : hours_of(record),
+                         .hours = record.hours,
                          .logs = {},
                          .notes = record.notes,
                          .stops = record.stops};
         for (const LogRecord& log : record.logs) tested.logs.push_back({log.file, log.checksum});
         result_.runs.push_back(std::move(tested));
+    }
+
+    static void look_at(RunRecord& record) {
+        for (const study::AxisRecord& axis : record.axes) {
+            record.hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
+            if (const std::string line = repeated_stretch(axis.rates_arcsec_s); !line.empty())
+                record.stops.push_back(fmt::format("{}: {}", axis.name, line));
+        }
     }
 
     // A measurement under two names, or in two runs of one kind, would agree with itself too well.
@@ -182,7 +179,6 @@ private:
     Acceptance result_;
     std::vector<RunRecord> records_;
     std::vector<StillAxis> still_, in_field_;
-    std::map<int, double> hours_;
     std::set<std::pair<RunKind, std::uint64_t>> seen_;
 };
 

@@ -13,22 +13,13 @@
 namespace zlg::acceptance {
 namespace {
 
-// How often two of 64 neighbours are equal.
+// How often two values are equal that are up to 16 samples apart.
 double equal_share(const std::vector<double>& values) {
-    constexpr std::size_t block = 64;
-    double equal = 0.0, all = 0.0;
-    for (std::size_t from = 0; from + block <= values.size(); from += block) {
-        std::vector<double> sorted(values.begin() + static_cast<std::ptrdiff_t>(from),
-                                   values.begin() + static_cast<std::ptrdiff_t>(from + block));
-        std::ranges::sort(sorted);
-        double n = 1.0;
-        for (std::size_t k = 1; k < block; ++k) {
-            n = sorted[k] == sorted[k - 1] ? n + 1.0 : 1.0;
-            equal += n - 1.0;
-        }
-        all += 0.5 * block * (block - 1);
-    }
-    return all > 0.0 ? equal / all : 1.0;
+    constexpr std::size_t farthest = 16;
+    double equal = 0.0;
+    for (std::size_t k = farthest; k < values.size(); ++k)
+        for (std::size_t apart = 1; apart <= farthest; ++apart) equal += values[k] == values[k - apart] ? 1.0 : 0.0;
+    return equal / static_cast<double>(farthest * values.size());
 }
 
 // Of a stretch that repeats by no chance; more than there are: none does.

@@ -6,9 +6,8 @@
 
 namespace zlg::acceptance {
 
-// In words, by the samples of the first such stretch; empty where there is none that chance would not make: of so many
-// pairs of stretches one in a billion, were the values of each independent with the spread that those of 64 neighbours
-// have, at half the length.
+// In words, by the samples of the first such stretch; empty where there is none that chance would not make: at half the
+// length one in a billion of all pairs would agree, were values independent and as often equal as neighbours are.
 //
 // values  NaN where nothing was measured; those are passed over.
 [[nodiscard]] std::string repeated_stretch(std::span<const double> values);

@@ -40,6 +40,7 @@ struct RunRecord {
     std::vector<SwitchRecord> switches;
     std::vector<double> table_rates_arcsec_s;  // where a column holds the rate of the table
     std::vector<config::Config> configs;       // of the logs of zlg
+    double hours = 0.0;
     std::vector<std::string> notes;
     std::vector<std::string> stops;  // why its values are no measurements of this gyro: no verdict rests on them
 };

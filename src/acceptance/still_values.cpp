@@ -7,6 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 
+#include <zlg/calibration/lab_log.hpp>
 #include <zlg/noise/noise_terms.hpp>
 #include <zlg/study/term_text.hpp>
 
@@ -63,18 +64,6 @@ Scatter scatter_of(const noise::ModeSplit& split) {
     return std::pow(four.sigma / one.sigma, 2) > bound ? four : one;
 }
 
-Value repeatability_of(const std::vector<Value>& runs) {
-    Value v = not_determined("bias_repeatability.deg_h", "needs two static records or more");
-    if (runs.size() < 2) return v;
-    double mean = 0.0, squares = 0.0;
-    const auto n = static_cast<double>(runs.size());
-    for (const Value& run : runs) mean += run.value / n, v.hours += run.hours;
-    for (const Value& run : runs) squares += std::pow(run.value - mean, 2);
-    v = deviation(v.name, std::sqrt(squares / (n - 1.0)), n - 1.0, v.hours);
-    v.reason = fmt::format("of {} records, their noise included", runs.size());
-    return v;
-}
-
 Value noise_value(const char* name, NoiseKind kind, const StillAxis& of) {
     const AxisResult& axis = of.result;
     if (!axis.fit)
@@ -106,6 +95,17 @@ Value noise_value(const char* name, NoiseKind kind, const StillAxis& of) {
 
 bool scatters(double squares, double degrees) {
     return boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees), squares)) < significance;
+}
+
+Value repeatability(std::string_view name, const std::vector<Value>& runs, const char* missing) {
+    const auto open = std::ranges::find(runs, false, &Value::determined);
+    if (open != runs.end() || runs.size() < 2) return not_determined(name, runs.size() < 2 ? missing : open->reason);
+    calibration::Moments spread;
+    double hours = 0.0;
+    for (const Value& run : runs) spread.add(run.value), hours += run.hours;
+    Value v = deviation(name, std::sqrt(spread.variance()), static_cast<double>(runs.size()) - 1.0, hours);
+    v.reason = fmt::format("of {} records, their noise included", runs.size());
+    return v;
 }
 
 Value largest(const std::vector<Value>& runs) {
@@ -179,15 +179,8 @@ std::string wrong_way(const Plan& plan, const StillAxis& axis) {
 std::vector<Value> still_values(const Plan& plan, const std::vector<StillAxis>& axes) {
     std::vector<Value> biases;
     for (const StillAxis& axis : axes) biases.push_back(bias_of(plan, axis));
-    std::vector<Value> all;
-    const auto open = std::ranges::find(biases, false, &Value::determined);
-    if (open != biases.end()) {
-        all.push_back(*open);
-        all.push_back(not_determined("bias_repeatability.deg_h", open->reason));
-    } else {
-        all.push_back(together(biases));
-        all.push_back(repeatability_of(biases));
-    }
+    std::vector<Value> all{together(biases),
+                           repeatability("bias_repeatability.deg_h", biases, "needs two static records or more")};
     const auto longest = std::ranges::max_element(axes, {}, [](const StillAxis& a) { return known_s(a.result); });
     all.push_back(noise_value("bias_instability.deg_h", NoiseKind::bias_instability, *longest));
     all.push_back(noise_value("angle_random_walk.deg_sqrt_h", NoiseKind::angle_random_walk, *longest));

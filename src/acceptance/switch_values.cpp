@@ -19,12 +19,7 @@ using calibration::Moments;
 Value mean_value(const char* name, const Moments& of, double hours, double step, const char* missing) {
     if (of.n < 2) return not_determined(name, missing);
     const auto n = static_cast<double>(of.n);
-    return {.name = name,
-            .determined = true,
-            .value = of.mean,
-            .uncertainty = std::sqrt(of.variance() / n + step * step / 12.0),
-            .degrees = n - 1.0,
-            .hours = hours};
+    return measured(name, of.mean, std::sqrt(of.variance() / n + step * step / 12.0), n - 1.0, hours);
 }
 
 // Whether the rotation changes while a switch lasts, gap and settling: the angles of neighbouring stretches of up to 64
@@ -77,12 +72,8 @@ std::vector<Value> constant_values(const study::CalibrationResult& found) {
     const auto add = [&](const char* name, const char* key, double factor) {
         const auto constant = std::ranges::find(found.calibration.constants, key, &calibration::Constant::key);
         const numeric::Estimate& e = constant->estimate;
-        all.push_back(e.determined ? Value{.name = name,
-                                           .determined = true,
-                                           .value = e.value * factor,
-                                           .uncertainty = e.sigma * factor,
-                                           .degrees = std::max(1.0, segments - 2.0),
-                                           .hours = hours}
+        const double degrees = std::max(1.0, segments - 2.0);
+        all.push_back(e.determined ? measured(name, e.value * factor, e.sigma * factor, degrees, hours)
                                    : not_determined(name, e.reason));
     };
     for (const auto& [name, key] : names) add(name, key, 1.0);

@@ -21,7 +21,7 @@ using calibration::TableStage;
 constexpr const char* scale = "scale_factor.ppm";
 constexpr const char* nonlinearity = "scale_nonlinearity.ppm";
 constexpr const char* asymmetry = "scale_asymmetry.ppm";
-constexpr const char* repeatability = "scale_repeatability.ppm";
+constexpr const char* scale_repeatability = "scale_repeatability.ppm";
 constexpr const char* threshold = "threshold.deg_h";
 
 struct Turned {
@@ -134,19 +134,10 @@ Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, con
     std::string symmetric;
     for (const Turned& t : tables) {
         const numeric::Estimate &k = t.table.scale_factor, &a = t.table.asymmetry_ppm;
-        scales.push_back({.name = scale,
-                          .determined = true,
-                          .value = 1e6 * (k.value * t.nominal - 1.0),
-                          .uncertainty = 1e6 * t.nominal * as_found(k, t.degrees()),
-                          .degrees = t.degrees(),
-                          .hours = t.hours});
+        scales.push_back(measured(scale, 1e6 * (k.value * t.nominal - 1.0), 1e6 * t.nominal * as_found(k, t.degrees()),
+                                  t.degrees(), t.hours));
         if (a.determined)
-            asymmetries.push_back({.name = asymmetry,
-                                   .determined = true,
-                                   .value = a.value,
-                                   .uncertainty = a.sigma,
-                                   .degrees = t.degrees(),
-                                   .hours = t.hours});
+            asymmetries.push_back(measured(asymmetry, a.value, a.sigma, t.degrees(), t.hours));
         else
             symmetric = a.reason;
         squares += t.table.nonlinearity_ppm * t.table.nonlinearity_ppm * static_cast<double>(t.table.stages.size());
@@ -162,14 +153,7 @@ Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, con
     found.values.push_back(together(scales));
     found.values.push_back(deviation(nonlinearity, std::sqrt(squares / degrees), degrees, hours));
     found.values.push_back(asymmetries.empty() ? not_determined(asymmetry, symmetric) : together(asymmetries));
-    if (scales.size() < 2) {
-        found.values.push_back(not_determined(repeatability, "needs two rate tables or more"));
-    } else {
-        double spread = 0.0;
-        for (const Value& one : scales) spread += std::pow(one.value - found.values.front().value, 2);
-        const auto free = static_cast<double>(scales.size()) - 1.0;
-        found.values.push_back(deviation(repeatability, std::sqrt(spread / free), free, hours));
-    }
+    found.values.push_back(repeatability(scale_repeatability, scales, "needs two rate tables or more"));
     std::vector<Value> thresholds;
     for (const Turned& t : tables) thresholds.push_back(threshold_of(t));
     found.values.push_back(largest(thresholds));

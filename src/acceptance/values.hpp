@@ -31,6 +31,9 @@ struct StillAxis {
 // One that is not determined leaves the mean open.
 [[nodiscard]] Value together(const std::vector<Value>& runs);
 
+// Standard deviation from run to run; `missing` says what fewer than two need.
+[[nodiscard]] Value repeatability(std::string_view name, const std::vector<Value>& runs, const char* missing);
+
 // The largest of one quantity over runs; one that is not determined leaves it open.
 [[nodiscard]] Value largest(const std::vector<Value>& runs);
 

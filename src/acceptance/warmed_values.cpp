@@ -28,40 +28,37 @@ struct Point {
     double time_s = 0.0, rate = 0.0, temperature_c = 0.0;
 };
 
-// Of a switched gyro its non-magnetic part, segment by segment; else means over 128 equal stretches.
+// Of what is known from one time to another; NaN: nothing.
+double mean_over(const std::vector<double>& values, double from, double to) {
+    double known = 0.0, sum = 0.0;
+    const auto end = std::min(values.size(), static_cast<std::size_t>(to));
+    for (auto k = static_cast<std::size_t>(std::max(0.0, from)); k < end; ++k)
+        if (std::isfinite(values[k])) known += 1.0, sum += values[k];
+    return sum / known;
+}
+
+// Of a switched gyro its non-magnetic part, segment by segment; else means over 128 equal stretches. The temperature,
+// where it was measured, is the mean around each.
 std::vector<Point> course_of(const study::AxisRecord& axis) {
-    constexpr std::size_t n_stretches = 128;
-    const std::size_t n = axis.rates_arcsec_s.size();
+    constexpr double n_stretches = 128.0;
+    const double length_s = static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz;
     std::vector<Point> course;
+    double apart_s = length_s / n_stretches;
     if (!axis.mode.empty()) {
         const noise::ModeSplit split = noise::split_modes(
             {.rate_hz = axis.rate_hz, .rates_arcsec_s = axis.rates_arcsec_s, .bridged_arcsec_s = {}, .mode = axis.mode},
             20);
         for (const noise::ModePoint& p : split.points) course.push_back({p.time_s, p.nonmagnetic_arcsec_s, 0.0});
+        if (course.size() > 1) apart_s = course[1].time_s - course[0].time_s;
     }
-    for (std::size_t k = 0; course.size() < n_stretches && k < n_stretches && (k > 0 || course.empty()); ++k) {
-        const std::size_t from = k * n / n_stretches, to = (k + 1) * n / n_stretches;
-        double known = 0.0, sum = 0.0;
-        for (std::size_t j = from; j < to; ++j)
-            if (std::isfinite(axis.rates_arcsec_s[j])) known += 1.0, sum += axis.rates_arcsec_s[j];
-        if (known > 0.0) course.push_back({0.5 * static_cast<double>(from + to) / axis.rate_hz, sum / known, 0.0});
-    }
-    return course;
-}
-
-// The mean of the temperatures around each point.
-std::vector<Point> with_temperature(std::vector<Point> course, const study::AxisRecord& axis) {
-    const double rate_hz = axis.rate_hz;
-    const double half_s = course.size() > 1 ? 0.5 * (course[1].time_s - course[0].time_s) : 1.0;
-    for (Point& p : course) {
-        double known = 0.0, sum = 0.0;
-        const auto from = static_cast<std::size_t>(std::max(0.0, (p.time_s - half_s) * rate_hz));
-        const auto to = std::min(axis.temperature_c.size(), static_cast<std::size_t>((p.time_s + half_s) * rate_hz));
-        for (std::size_t k = from; k < to; ++k)
-            if (std::isfinite(axis.temperature_c[k])) known += 1.0, sum += axis.temperature_c[k];
-        p.temperature_c = known > 0.0 ? sum / known : std::numeric_limits<double>::quiet_NaN();
-    }
-    std::erase_if(course, [](const Point& p) { return !std::isfinite(p.temperature_c); });
+    const auto around = [&](const std::vector<double>& values, double time_s) {
+        return mean_over(values, (time_s - 0.5 * apart_s) * axis.rate_hz, (time_s + 0.5 * apart_s) * axis.rate_hz);
+    };
+    if (course.empty())
+        for (double k = 0.5; k < n_stretches; k += 1.0)
+            course.push_back({k * apart_s, around(axis.rates_arcsec_s, k * apart_s), 0.0});
+    for (Point& p : course) p.temperature_c = around(axis.temperature_c, p.time_s);
+    std::erase_if(course, [](const Point& p) { return !std::isfinite(p.rate); });
     return course;
 }
 
@@ -117,7 +114,8 @@ std::array<Value, 2> temperature_of(const RunRecord& record, std::size_t index, 
         return std::array{not_determined(slope, why), not_determined(hysteresis, why)};
     };
     if (axis.temperature_c.empty()) return refuse("needs a log with temperature_c");
-    const std::vector<Point> course = with_temperature(course_of(axis), axis);
+    std::vector<Point> course = course_of(axis);
+    std::erase_if(course, [](const Point& p) { return !std::isfinite(p.temperature_c); });
     std::vector<double> rates, temperatures;
     for (const Point& p : course) {
         rates.push_back(p.rate);
@@ -134,7 +132,7 @@ std::array<Value, 2> temperature_of(const RunRecord& record, std::size_t index, 
     const double hours = (course.back().time_s - course.front().time_s) / 3600.0;
     const auto value_of = [hours](const char* name, const numeric::Estimate& e, double value) {
         if (!e.determined) return not_determined(name, e.reason);
-        return Value{.name = name, .determined = true, .value = value, .uncertainty = e.sigma, .hours = hours};
+        return measured(name, value, e.sigma, std::numeric_limits<double>::infinity(), hours);
     };
     return {value_of(slope, law.bias[1], law.bias[1].value),
             value_of(hysteresis, law.hysteresis_arcsec_s, std::abs(law.hysteresis_arcsec_s.value))};
@@ -154,11 +152,10 @@ Value settling_of(const RunRecord& record, std::size_t index, double band, std::
     const Settling found = settling_in(course, band);
     if (!(found.latest_s < 0.75 * length_s))
         return not_determined(settling, "needs a longer run: at the end it is not sure that the bias has settled");
-    Value v = counted(settling, found.seen_s, length_s / 3600.0);
+    const double off_s = std::max(found.latest_s - found.seen_s, found.seen_s - found.earliest_s);
+    Value v =
+        measured(settling, found.seen_s, off_s / z_95, std::numeric_limits<double>::infinity(), length_s / 3600.0);
     v.reason = "last time outside the band about the last quarter of the run";
-    if (found.latest_s == 0.0) return v;
-    v.uncertainty = std::max(found.latest_s - found.seen_s, found.seen_s - found.earliest_s) / z_95;
-    v.law = Law::student;
     return v;
 }
 
@@ -229,12 +226,7 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
                              "Bias of each run, with twice its standard uncertainty.", "field, mT", "bias, deg/h");
     f.series = {std::move(points)};
     found.figures = {std::move(f)};
-    found.values.push_back({.name = sensitivity,
-                            .determined = true,
-                            .value = xy / xx,
-                            .uncertainty = 1.0 / std::sqrt(xx),
-                            .degrees = degrees,
-                            .hours = hours});
+    found.values.push_back(measured(sensitivity, xy / xx, 1.0 / std::sqrt(xx), degrees, hours));
     if (const double free = static_cast<double>(runs.size()) - 2.0; free > 0.0) {
         if (scatters(tested, free)) {
             found.values.back().uncertainty *= std::sqrt(tested / free);

@@ -53,6 +53,8 @@ struct Value {
 [[nodiscard]] Value not_determined(std::string_view name, std::string reason);
 // What was counted or read, without an error.
 [[nodiscard]] Value counted(std::string_view name, double value, double hours);
+// By the law of Student.
+[[nodiscard]] Value measured(std::string_view name, double value, double uncertainty, double degrees, double hours);
 // A standard deviation, by the law of chi-square.
 [[nodiscard]] Value deviation(std::string_view name, double value, double degrees, double hours);
 
