@@ -13,21 +13,16 @@
 namespace zlg::acceptance {
 namespace {
 
-// How often two values are equal that are up to 16 samples apart.
-double equal_share(const std::vector<double>& values) {
+// Of a stretch that repeats by no chance, by how often two values are equal that are up to 16 samples apart.
+double telling_length(const std::vector<double>& values) {
+    constexpr double shortest = 32.0, rare = 20.7;  // -log(1e-9)
     constexpr std::size_t farthest = 16;
+    const auto n = static_cast<double>(values.size());
     double equal = 0.0;
     for (std::size_t k = farthest; k < values.size(); ++k)
         for (std::size_t apart = 1; apart <= farthest; ++apart) equal += values[k] == values[k - apart] ? 1.0 : 0.0;
-    return equal / static_cast<double>(farthest * values.size());
-}
-
-// Of a stretch that repeats by no chance; more than there are: none does.
-std::size_t telling_length(const std::vector<double>& values) {
-    constexpr double shortest = 32.0, rare = 20.7;  // -log(1e-9)
-    const double n = static_cast<double>(values.size()), share = equal_share(values);
-    const double length = share > 0.0 ? 2.0 * (2.0 * std::log(n) + rare) / -std::log(share) : shortest;
-    return length < n ? static_cast<std::size_t>(std::max(shortest, std::ceil(length))) : values.size() + 1;
+    if (equal == 0.0) return shortest;
+    return std::max(shortest, std::ceil(2.0 * (2.0 * std::log(n) + rare) / std::log(farthest * n / equal)));
 }
 
 std::uint64_t bits_of(double value) {
@@ -44,8 +39,9 @@ std::string repeated_stretch(std::span<const double> values) {
     std::vector<std::size_t> rows;
     for (std::size_t k = 0; k < values.size(); ++k)
         if (std::isfinite(values[k])) known.push_back(values[k]), rows.push_back(k + 1);
-    const std::size_t length = telling_length(known);
-    if (2 * length > known.size()) return {};
+    const double least = telling_length(known);
+    if (!(2.0 * least < static_cast<double>(known.size()))) return {};
+    const auto length = static_cast<std::size_t>(least);
     const auto at = [&known](std::size_t k) { return known.begin() + static_cast<std::ptrdiff_t>(k); };
     std::uint64_t sum = 0, highest = 1;
     for (std::size_t k = 1; k < length; ++k) highest *= base;

@@ -8,6 +8,7 @@
 #include <boost/math/distributions/fisher_f.hpp>
 
 #include <zlg/calibration/lab_log.hpp>
+#include <zlg/noise/mean_error.hpp>
 #include <zlg/noise/noise_terms.hpp>
 #include <zlg/study/term_text.hpp>
 
@@ -39,11 +40,7 @@ std::function<double(double)> mean_sigma_after(const AxisResult& axis) {
 
 // Of a switched gyro the residuals of the segments tell the error: as they stand, or in means of four where these
 // scatter by more than independent ones could (an F test), as correlated noise makes them.
-struct Scatter {
-    double sigma = 0.0, degrees = 1.0;
-};
-
-Scatter scatter_of(const noise::ModeSplit& split) {
+noise::MeanError scatter_of(const noise::ModeSplit& split) {
     constexpr std::size_t together = 4;
     std::vector<double> left, means;
     for (const noise::ModeSegment& s : split.segments)
@@ -54,11 +51,11 @@ Scatter scatter_of(const noise::ModeSplit& split) {
         double squares = 0.0;
         for (const double each : x) squares += each * each;
         const auto n = static_cast<double>(x.size());
-        return Scatter{std::sqrt(squares / (n - lost) / n), n - lost};
+        return noise::MeanError{std::sqrt(squares / (n - lost) / n), n - lost};
     };
-    const Scatter one = error(left, split.fitted_time_s > 0.0 ? 4.0 : 2.0);
+    const noise::MeanError one = error(left, split.fitted_time_s > 0.0 ? 4.0 : 2.0);
     if (means.size() < 4) return one;
-    const Scatter four = error(means, 1.0);
+    const noise::MeanError four = error(means, 1.0);
     const boost::math::fisher_f law(four.degrees, one.degrees);
     const double bound = boost::math::quantile(boost::math::complement(law, significance));
     return std::pow(four.sigma / one.sigma, 2) > bound ? four : one;
@@ -149,7 +146,7 @@ Value bias_of(const Plan& plan, const StillAxis& of) {
     if (axis.modes && axis.modes->segments.size() > 1) {
         const numeric::Estimate& part = axis.modes->nonmagnetic_arcsec_s;
         if (!part.determined) return not_determined(v.name, fmt::format("run {}: {}", of.run->number, part.reason));
-        const Scatter scatter = scatter_of(*axis.modes);
+        const noise::MeanError scatter = scatter_of(*axis.modes);
         v.value = part.value;
         v.uncertainty = scatter.sigma;
         v.degrees = scatter.degrees;

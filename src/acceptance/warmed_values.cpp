@@ -175,13 +175,11 @@ Found temperature_values(const std::vector<RunRecord*>& records) {
 }
 
 Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
-    Found found;
     const double band = plan.warm_up_band_deg_h;
-    if (band == 0.0) {
-        found.values = {
-            not_determined(settling, "needs [accept] warm_up_band_deg_h: within which the bias has settled")};
-        return found;
-    }
+    if (band == 0.0)
+        return {
+            .values = {not_determined(settling, "needs [accept] warm_up_band_deg_h: within which the bias settles")}};
+    Found found;
     std::vector<Value> times;
     for (const RunRecord* record : records)
         for (std::size_t k = 0; k < record->axes.size(); ++k)

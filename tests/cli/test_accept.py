@@ -182,9 +182,10 @@ class Accept(CliTest):
 
     def test_the_error_of_a_switch_is_that_of_a_gyro_at_rest(self):
         raw = self.at("raw.h5")
-        for motion, determined in [("rest", True), ("constant", True), ("sine", False), ("sum", False)]:
-            with self.subTest(motion):
-                self.assertEqual(run("simulate", "--duration", 200, "--set", f"motion.kind={motion}", "--out", raw, "--force").returncode, 0)
+        for motion, hz, determined in [("rest", 7, True), ("constant", 7, True), ("sine", 0.1, False), ("sine", 7, False), ("sine", 70, False)]:
+            with self.subTest(motion, hz=hz):
+                sets = ["--set", f"motion.kind={motion}", "--set", f"motion.frequency_hz={hz}", "--set", "motion.rate_arcsec_s=500"]
+                self.assertEqual(run("simulate", "--duration", 200, *sets, "--out", raw, "--force").returncode, 0)
                 plan = self.plan([f'files = ["{raw.name}"]\nkind = "static"\n'])
                 error = self.judged(plan, 1)[1]["switch_error.arcsec"]
                 self.assertEqual(error["verdict"] != "not determined", determined, error)
