@@ -71,10 +71,10 @@ TEST(Verdict, no_magnitude_is_below_nothing) {
     EXPECT_EQ(judge(width, band, 0.05).verdict, Verdict::pass);
     width.value = width.uncertainty = 0.0;
     EXPECT_EQ(judge(width, band, 0.05).verdict, Verdict::pass);
-    EXPECT_EQ(judge(width, {.name = width.name, .min = 0.5, .max = 1.0}, 0.05).verdict, Verdict::fail);
+    EXPECT_EQ(judge(width, Limit{.name = width.name, .min = 0.5, .max = 1.0}, 0.05).verdict, Verdict::fail);
     // What is counted may be at either limit.
     width = {.name = "switches_withheld.count", .determined = true, .value = 2.0, .law = Law::without_error};
-    EXPECT_EQ(judge(width, {.name = width.name, .min = 2.0, .max = 2.0}, 0.05).verdict, Verdict::pass);
+    EXPECT_EQ(judge(width, Limit{.name = width.name, .min = 2.0, .max = 2.0}, 0.05).verdict, Verdict::pass);
     width = {.name = "alarms.per_h", .determined = true, .value = 0.0, .law = Law::poisson, .hours = 10.0};
     EXPECT_EQ(judge(width, band, 0.05).verdict, Verdict::pass);
 }
