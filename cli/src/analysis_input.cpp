@@ -77,10 +77,7 @@ study::TableResult table_test(const config::Analysis& a, const study::AxisRecord
                               const std::vector<double>& table_rates) {
     if (table_rates.size() != axis.rates_arcsec_s.size())
         throw UsageError{"--map holds=angle: a rate-table test takes increments or rates"};
-    const double settling =
-        std::min(std::ceil(a.table_settling_s * axis.rate_hz), static_cast<double>(table_rates.size()));
-    const calibration::RateTableOptions options{.settling_samples = static_cast<std::int64_t>(settling),
-                                                .earth_arcsec_s = a.table_earth_arcsec_s};
+    const auto options = study::table_options(a, axis.rate_hz, table_rates.size());
     try {
         study::TableResult result{.name = axis.name,
                                   .holds = axis.holds,

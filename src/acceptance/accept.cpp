@@ -12,19 +12,13 @@
 #include <zlg/study/how_made.hpp>
 
 #include "moved_values.hpp"
+#include "repeated_stretch.hpp"
 #include "values.hpp"
 
 namespace zlg::acceptance {
 namespace {
 
 bool is_still(RunKind kind) { return kind == RunKind::at_rest || kind == RunKind::switching; }
-
-double hours_of(const RunRecord& record) {
-    double hours = 0.0;
-    for (const study::AxisRecord& axis : record.axes)
-        hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
-    return hours;
-}
 
 class Test {
 public:
@@ -39,11 +33,17 @@ public:
             if (task_.on_progress)
                 task_.on_progress(static_cast<double>(run.number - 1) / static_cast<double>(result_.plan.runs.size()));
             records_.push_back(read_run(result_.plan, run, task_.said));
+            require_new(records_.back());
+            look_at(records_.back());
             analyze(records_.back());
         }
-        look_for_twins();
         const Found moved = moved_values();
-        std::ranges::for_each(records_, [this](const RunRecord& record) { note(record); });
+        for (RunRecord& record : records_) {
+            const bool has_counts = record.run->mapping.has("scale_arcsec") || !record.raw_logs.empty();
+            if (has_counts && record.run->kind != RunKind::rate_table && !moved.wrong_scale.empty())
+                record.stops.push_back(moved.wrong_scale);
+            note(record);
+        }
         std::vector<Value> values = moved.values;
         const auto take = [&](std::vector<Value> more) { std::ranges::move(more, std::back_inserter(values)); };
         // What raw logs tell goes before what the noise of any record does.
@@ -66,8 +66,6 @@ private:
                 if (const std::string why = wrong_way(result_.plan, found); !why.empty()) record.stops.push_back(why);
                 std::ranges::move(study::axis_figures(task.config, found.result, still_.size() + in_field_.size()),
                                   std::back_inserter(result_.figures));
-                hours_[record.run->number] +=
-                    static_cast<double>(found.result.n_samples) / found.result.rate_hz / 3600.0;
                 (is_still(kind) ? still_ : in_field_).push_back(std::move(found));
             } catch (const deviations::SeriesError& error) {
                 record.stops.emplace_back(error.what());
@@ -86,6 +84,7 @@ private:
         const auto take = [&](Found found) {
             std::ranges::move(found.values, std::back_inserter(all.values));
             std::ranges::move(found.figures, std::back_inserter(result_.figures));
+            if (!found.wrong_scale.empty()) all.wrong_scale = found.wrong_scale;
         };
         if (const auto tables = of_kind(RunKind::rate_table); !tables.empty())
             take(table_values(result_.plan, tables, task_.said.analysis));
@@ -99,7 +98,7 @@ private:
         const Run& run = *record.run;
         TestedRun tested{.number = run.number,
                          .kind = run.kind,
-                         .hours = hours_.contains(run.number) ? hours_[run.number] : hours_of(record),
+                         .hours = record.hours,
                          .logs = {},
                          .notes = record.notes,
                          .stops = record.stops};
@@ -107,16 +106,20 @@ private:
         result_.runs.push_back(std::move(tested));
     }
 
-    // The same measurement under two names would agree with itself too well.
-    void look_for_twins() const {
-        for (std::size_t k = 0; k < records_.size(); ++k)
-            for (std::size_t j = 0; j < k; ++j)
-                if (records_[j].run->kind == records_[k].run->kind)
-                    for (const LogRecord& log : records_[k].logs)
-                        if (std::ranges::find(records_[j].logs, log.checksum, &LogRecord::checksum) !=
-                            records_[j].logs.end())
-                            throw logs::FormatError(fmt::format(
-                                "{}: is a log of run {} once more; each measurement counts once", log.path, j + 1));
+    static void look_at(RunRecord& record) {
+        for (const study::AxisRecord& axis : record.axes) {
+            record.hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
+            if (const std::string line = repeated_stretch(axis.rates_arcsec_s); !line.empty())
+                record.stops.push_back(fmt::format("{}: {}", axis.name, line));
+        }
+    }
+
+    // A measurement under two names, or in two runs of one kind, would agree with itself too well.
+    void require_new(const RunRecord& record) {
+        for (const LogRecord& log : record.logs)
+            if (!seen_.emplace(record.run->kind, log.checksum).second)
+                throw logs::FormatError(fmt::format("{}: {} is in the plan once more; each measurement counts once",
+                                                    record.run->place, log.path));
     }
 
     [[nodiscard]] std::vector<std::string> raw_logs() const {
@@ -176,7 +179,7 @@ private:
     Acceptance result_;
     std::vector<RunRecord> records_;
     std::vector<StillAxis> still_, in_field_;
-    std::map<int, double> hours_;
+    std::set<std::pair<RunKind, std::uint64_t>> seen_;
 };
 
 }  // namespace

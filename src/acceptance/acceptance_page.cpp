@@ -22,9 +22,9 @@ std::string unit_of(const Judged& judged) { return std::string{find_quantity(jud
 
 std::string value_cell(const Judged& judged) {
     const Value& v = judged.value;
-    if (!v.determined) return "-";
+    if (!v.determined) return "not determined";
     const std::string text =
-        v.law == Law::without_error ? fmt::format("{:.6g}", v.value) : study::with_error(v.value, v.uncertainty);
+        v.uncertainty == 0.0 ? fmt::format("{:.6g}", v.value) : study::with_error(v.value, v.uncertainty);
     return fmt::format("{} {}", text, unit_of(judged));
 }
 
@@ -59,7 +59,7 @@ Table quantities_table(const Acceptance& test, bool with_limit) {
     for (const Judged& judged : test.quantities) {
         if (judged.limit.has_value() != with_limit) continue;
         const Value& v = judged.value;
-        std::vector<std::string> cells{v.name, v.determined ? value_cell(judged) : "not determined", degrees_cell(v)};
+        std::vector<std::string> cells{v.name, value_cell(judged), degrees_cell(v)};
         if (with_limit) cells.insert(cells.end(), {limit_cell(judged.limit), verdict_cell(judged)});
         cells.push_back(v.reason.empty() ? "-" : v.reason);
         t.rows.push_back(std::move(cells));

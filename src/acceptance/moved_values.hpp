@@ -17,6 +17,8 @@ namespace zlg::acceptance {
 struct Found {
     std::vector<Value> values;
     std::vector<report::Figure> figures;
+    std::string
+        wrong_scale{};  // what a rate table says of the nominal scale that others rest on; empty: it bears it out
 };
 
 // Scale factor, nonlinearity, asymmetry, repeatability and threshold of rate tables, by calibration::rate_table.

@@ -129,10 +129,7 @@ std::vector<Stage> stages_of(const At& at) {
 std::vector<std::string> files_of(const At& at) {
     std::vector<std::string> files;
     if (at.node.is_string()) return {at.text()};
-    for (const toml::node& node : at.array("names of files")) {
-        files.push_back(At{at.path, at.name, node}.text());
-        if (std::ranges::count(files, files.back()) > 1) at.fail(fmt::format("{} is named twice", files.back()));
-    }
+    for (const toml::node& node : at.array("names of files")) files.push_back(At{at.path, at.name, node}.text());
     return files;
 }
 
@@ -183,15 +180,6 @@ Limit limit_of(const At& at, std::string_view name, const std::vector<Run>& runs
     at.fail(fmt::format("no run of the plan gives it; it needs a run of kind {}", fmt::join(needed, " or ")));
 }
 
-void check_once(const Plan& plan) {
-    for (const Run& run : plan.runs)
-        for (const Run& other : plan.runs)
-            for (const std::string& file : run.files)
-                if (run.number < other.number && run.kind == other.kind && std::ranges::count(other.files, file) > 0)
-                    throw config::ConfigError(fmt::format("{}: {} is already a log of run {}; each log counts once",
-                                                          other.place, file, run.number));
-}
-
 Plan plan_of(const std::string& path, const toml::table& root) {
     Plan plan{.path = path, .unit = {}, .runs = {}, .limits = {}};
     for (const auto& [key, node] : root) {
@@ -210,7 +198,6 @@ Plan plan_of(const std::string& path, const toml::table& root) {
         plan.runs.push_back(run_of({path, fmt::format("[[run]] {}", number), node}, plan.unit));
         plan.runs.back().number = number;
     }
-    check_once(plan);
     if (section("limits") != nullptr)
         for (const auto& [key, node] : At{path, "[limits]", *section("limits")}.table())
             plan.limits.push_back(limit_of({path, fmt::format("[limits] {}", text::excerpt(key.str(), 60, ' ')), node},

@@ -15,7 +15,7 @@ namespace {
 using enum RunKind;
 
 const std::vector<RunKind> still{at_rest, switching};
-const std::vector<RunKind> tables{rate_table};
+const std::vector<RunKind> tables{rate_table}, heated{temperature}, from_cold{warm_up}, in_field{magnetic};
 const std::vector<RunKind> of_own_logs{at_rest, switching, temperature, warm_up};
 constexpr std::string_view any_record = "a static run of at least 64 samples";
 constexpr std::string_view own = "a raw log of a switched gyro";
@@ -44,31 +44,16 @@ const std::array table{
                  "two rate tables or more", tables},
     QuantityInfo{"threshold.deg_h", "smallest rate at which half of it or more shows", "deg/h",
                  "a rate table with stages of small rates", tables},
-    QuantityInfo{"bias_temperature.deg_h_c",
-                 "change of the bias with temperature",
-                 "deg/h/C",
-                 "a temperature run with temperature_c",
-                 {temperature}},
-    QuantityInfo{"bias_hysteresis.deg_h",
-                 "bias while warming less that while cooling at one temperature, magnitude",
-                 "deg/h",
-                 "a temperature run that warms and cools",
-                 {temperature}},
-    QuantityInfo{"warm_up.s",
-                 "time from the start until the bias stays within [accept] warm_up_band_deg_h of its end",
-                 "s",
-                 "a run from cold and the band",
-                 {warm_up}},
-    QuantityInfo{"magnetic_sensitivity.deg_h_mt",
-                 "change of the bias with the field",
-                 "deg/h/mT",
-                 "magnetic runs at two values of field_mt or more",
-                 {magnetic}},
-    QuantityInfo{"magnetic_residual.deg_h",
-                 "standard deviation of the bias about the straight line over the field",
-                 "deg/h",
-                 "magnetic runs at three values of field_mt or more",
-                 {magnetic}},
+    QuantityInfo{"bias_temperature.deg_h_c", "change of the bias with temperature", "deg/h/C",
+                 "a temperature run with temperature_c", heated},
+    QuantityInfo{"bias_hysteresis.deg_h", "bias while warming less that while cooling at one temperature, magnitude",
+                 "deg/h", "a temperature run that warms and cools", heated},
+    QuantityInfo{"warm_up.s", "time from the start until the bias stays within [accept] warm_up_band_deg_h of its end",
+                 "s", "a run from cold, long enough that it has settled, and the band", from_cold},
+    QuantityInfo{"magnetic_sensitivity.deg_h_mt", "change of the bias with the field", "deg/h/mT",
+                 "magnetic runs at two values of field_mt or more", in_field},
+    QuantityInfo{"magnetic_residual.deg_h", "standard deviation of the bias about the straight line over the field",
+                 "deg/h", "magnetic runs at three values of field_mt or more", in_field},
     QuantityInfo{"magnetic_drift.deg_h", "magnetic drift at the start of a log", "deg/h", own, of_own_logs},
     QuantityInfo{"magnetic_thermal.deg_h", "growth of the magnetic drift by warming", "deg/h", own, of_own_logs},
     QuantityInfo{"thermal_time.s", "time of that growth", "s", own, of_own_logs},
@@ -106,6 +91,19 @@ const QuantityInfo* find_quantity(std::string_view name) {
     return found == table.end() ? nullptr : &*found;
 }
 
+bool is_magnitude(std::string_view name) {
+    constexpr std::array<std::string_view, 9> with_sign{"bias.deg_h",
+                                                        "ramp.deg_h_h",
+                                                        "scale_factor.ppm",
+                                                        "scale_asymmetry.ppm",
+                                                        "bias_temperature.deg_h_c",
+                                                        "magnetic_sensitivity.deg_h_mt",
+                                                        "magnetic_drift.deg_h",
+                                                        "magnetic_thermal.deg_h",
+                                                        "bias_frequency_temperature.per_c"};
+    return std::ranges::find(with_sign, name) == with_sign.end();
+}
+
 std::string unknown_quantity(std::string_view name) {
     const std::string shown = text::excerpt(name, 60, ' ');
     for (const QuantityInfo& q : table)
@@ -123,23 +121,25 @@ Value not_determined(std::string_view name, std::string reason) {
     return value;
 }
 
-Value counted(std::string_view name, double value, double hours) {
+Value measured(std::string_view name, double value, double uncertainty, double degrees, double hours) {
     return {.name = std::string{name},
             .determined = true,
             .value = value,
-            .uncertainty = 0.0,
-            .law = Law::without_error,
+            .uncertainty = uncertainty,
+            .degrees = degrees,
             .hours = hours};
 }
 
+Value counted(std::string_view name, double value, double hours) {
+    Value v = measured(name, value, 0.0, std::numeric_limits<double>::infinity(), hours);
+    v.law = Law::without_error;
+    return v;
+}
+
 Value deviation(std::string_view name, double value, double degrees, double hours) {
-    return {.name = std::string{name},
-            .determined = true,
-            .value = value,
-            .uncertainty = value / std::sqrt(2.0 * degrees),
-            .degrees = degrees,
-            .law = Law::chi,
-            .hours = hours};
+    Value v = measured(name, value, value / std::sqrt(2.0 * degrees), degrees, hours);
+    v.law = Law::chi;
+    return v;
 }
 
 }  // namespace zlg::acceptance

@@ -54,6 +54,17 @@ void require_serial(const Plan& plan, const std::string& found, const std::strin
                                           text::excerpt(found, 60, ' '), text::excerpt(plan.unit.serial, 60, ' ')));
 }
 
+// A gyro is no more than that off its nominal scale: else one of the two is of another.
+void require_scale(const Plan& plan, double found_arcsec, const std::string& where) {
+    constexpr double apart = 0.01;
+    const auto& nominal = plan.unit.scale_arcsec;
+    if (!nominal || std::abs(found_arcsec / *nominal - 1.0) <= apart) return;
+    throw config::ConfigError(
+        fmt::format("{}: a count is {:g} arcsec there, and {:g} by scale_arcsec of [unit]; "
+                    "allowed is one scale, to 1 %",
+                    where, found_arcsec, *nominal));
+}
+
 void check_serial(const Plan& plan, const logs::Settings& settings, const std::string& path) {
     for (const auto& [key, value] : settings) {
         const std::string last = key.substr(key.find_last_of('.') + 1);
@@ -61,14 +72,21 @@ void check_serial(const Plan& plan, const logs::Settings& settings, const std::s
     }
 }
 
-// "Serial number: 17", "S/N;17" above the columns.
-void check_serial(const Plan& plan, const std::vector<std::string>& head, const std::string& path) {
+// "Serial number: 17", "S/N;17", "Scale factor: 3.26 arcsec/count" above the columns.
+void check_head(const Plan& plan, const std::vector<std::string>& head, const std::string& path) {
     static const std::regex serial{
         R"((?:^|[^a-z])(?:serial(?:[ _]?(?:number|no\.?|nr\.?))?|s/n)\s*[:=;,\t]\s*"?([^\s;,"]+))", std::regex::icase};
+    static const std::regex scale{
+        R"((?:scale|lsb|count|pulse)[^0-9]{0,40}([0-9]+(?:[.,][0-9]+)?(?:e[+-]?[0-9]+)?)\s*(?:arc[ -]?sec|"|'')))",
+        std::regex::icase};
     for (const std::string& line : head) {
         std::smatch found;
         const std::string start = line.substr(0, 400);
         if (std::regex_search(start, found, serial)) require_serial(plan, found[1], path);
+        if (!std::regex_search(start, found, scale)) continue;
+        std::string number = found[1];
+        std::ranges::replace(number, ',', '.');
+        require_scale(plan, std::stod(number), fmt::format("{}, '{}'", path, text::excerpt(line, 60, ' ')));
     }
 }
 
@@ -86,14 +104,29 @@ config::Config log_config(const Plan& plan, const config::Config& said, const lo
         settings, [](const auto& pair) { return pair.first == "scale_arcsec" || pair.first == "gyro.scale_arcsec"; });
     if (plan.unit.scale_arcsec && !says_scale && !config::is_given(over, "gyro.scale_arcsec"))
         config::apply_pair(over, "gyro.scale_arcsec", fmt::format("{}", *plan.unit.scale_arcsec), plan.path);
-    return recorded::config_of_log(over, settings, path, scale_is_used);
+    config::Config config = recorded::config_of_log(over, settings, path, scale_is_used);
+    if (says_scale) require_scale(plan, config.gyro.scale_arcsec, path);
+    return config;
 }
 
-// Values that may be no measurements stop the verdicts.
+// Values that may be no measurements, and holes, stop the verdicts. The gap of a switch, of up to 32 samples, is none.
+void look_at(const study::AxisRecord& axis, const std::string& path, RunRecord& record) {
+    add(record.stops, path, axis.warnings);
+    const std::size_t of_switch = axis.mode.empty() ? 0 : 32;
+    std::size_t missing = 0, gap = 0;
+    for (const double rate : axis.rates_arcsec_s) {
+        gap = std::isfinite(rate) ? 0 : gap + 1;
+        if (gap > of_switch) missing += gap == of_switch + 1 ? gap : 1;
+    }
+    if (missing * 100 > axis.rates_arcsec_s.size())
+        add(record.stops, path,
+            {fmt::format("{} of {} samples are missing; allowed is one in 100", missing, axis.rates_arcsec_s.size())});
+}
+
 void finish(study::TickRates& ticks, const std::string& path, RunRecord& record) {
     const std::size_t first = record.axes.size();
     ticks.finish(record.axes);
-    add(record.stops, path, record.axes[first].warnings);
+    look_at(record.axes[first], path, record);
 }
 
 void read_angles(const Plan& plan, const config::Config& said, const std::string& path, RunRecord& record) {
@@ -161,7 +194,8 @@ void read_raw(const Plan& plan, const config::Config& said, const std::string& p
 
 void read_axes(const Plan& plan, const logs::ForeignLook& look, RunRecord& record) {
     const std::string& path = look.table.path;
-    check_serial(plan, look.table.head, path);
+    check_head(plan, look.table.head, path);
+    if (const auto scale = look.mapping.real("scale_arcsec")) require_scale(plan, *scale, record.run->place);
     for (const auto* lines : {&look.table.notes, &look.said}) add(record.notes, path, *lines);
     logs::ImportedAxes imported = logs::imported_axes(look);
     add(record.notes, path, imported.notes);
@@ -169,22 +203,10 @@ void read_axes(const Plan& plan, const logs::ForeignLook& look, RunRecord& recor
         throw config::ConfigError(
             fmt::format("{}: {} axes; a unit has one: axis = COLUMN", record.run->place, imported.axes.size()));
     study::AxisRecord axis = study::axis_of(path, std::move(imported.axes.front()));
-    add(record.stops, path, axis.warnings);
-    const auto missing = std::ranges::count_if(axis.rates_arcsec_s, [](double rate) { return !std::isfinite(rate); });
-    if (missing * 100 > std::ssize(axis.rates_arcsec_s))
-        add(record.stops, path,
-            {fmt::format("{} of {} samples are missing; allowed is one in 100", missing, axis.rates_arcsec_s.size())});
+    look_at(axis, path, record);
     axis.temperature_c = std::move(imported.temperature_c);
     record.axes.push_back(std::move(axis));
     record.table_rates_arcsec_s = std::move(imported.table_rates_arcsec_s);
-}
-
-void look_for_twins(const RunRecord& record) {
-    for (std::size_t k = 1; k < record.logs.size(); ++k)
-        for (std::size_t j = 0; j < k; ++j)
-            if (record.logs[j].checksum == record.logs[k].checksum)
-                throw logs::FormatError(fmt::format("{}: is {} once more; two logs of one run cannot be of one time",
-                                                    record.logs[k].path, record.logs[j].path));
 }
 
 }  // namespace
@@ -211,7 +233,6 @@ RunRecord read_run(const Plan& plan, const Run& run, const config::Config& said)
         else
             foreign.push_back(path);
     }
-    look_for_twins(record);
     if (foreign.empty()) return record;
     if (foreign.size() != run.files.size())
         throw config::ConfigError(

@@ -24,6 +24,7 @@ struct LogRecord {
 struct SwitchRecord {
     std::vector<study::SwitchLine> lines;
     std::vector<double> relock_s;          // of each switch after which the detuning was seen to settle
+    bool detuning_is_dead = false;         // absent, or one value throughout
     std::int64_t unsettled = 0;            // switches after which it was not, in the halves that are looked at
     std::int64_t alarms = 0;               // stretches without a trusted reading that belong to no switch
     std::optional<std::int64_t> withheld;  // absent: the log does not say when switches are due
@@ -39,6 +40,7 @@ struct RunRecord {
     std::vector<SwitchRecord> switches;
     std::vector<double> table_rates_arcsec_s;  // where a column holds the rate of the table
     std::vector<config::Config> configs;       // of the logs of zlg
+    double hours = 0.0;
     std::vector<std::string> notes;
     std::vector<std::string> stops;  // why its values are no measurements of this gyro: no verdict rests on them
 };

@@ -7,6 +7,8 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 
+#include <zlg/calibration/lab_log.hpp>
+#include <zlg/noise/mean_error.hpp>
 #include <zlg/noise/noise_terms.hpp>
 #include <zlg/study/term_text.hpp>
 
@@ -21,7 +23,6 @@ using noise::NoiseTerms;
 using study::AxisResult;
 
 constexpr double significance = 0.05;
-constexpr double z_95 = 1.6448536269514722;
 
 double known_s(const AxisResult& axis) { return static_cast<double>(axis.n_known) / axis.rate_hz; }
 
@@ -39,11 +40,7 @@ std::function<double(double)> mean_sigma_after(const AxisResult& axis) {
 
 // Of a switched gyro the residuals of the segments tell the error: as they stand, or in means of four where these
 // scatter by more than independent ones could (an F test), as correlated noise makes them.
-struct Scatter {
-    double sigma = 0.0, degrees = 1.0;
-};
-
-Scatter scatter_of(const noise::ModeSplit& split) {
+noise::MeanError scatter_of(const noise::ModeSplit& split) {
     constexpr std::size_t together = 4;
     std::vector<double> left, means;
     for (const noise::ModeSegment& s : split.segments)
@@ -54,26 +51,14 @@ Scatter scatter_of(const noise::ModeSplit& split) {
         double squares = 0.0;
         for (const double each : x) squares += each * each;
         const auto n = static_cast<double>(x.size());
-        return Scatter{std::sqrt(squares / (n - lost) / n), n - lost};
+        return noise::MeanError{std::sqrt(squares / (n - lost) / n), n - lost};
     };
-    const Scatter one = error(left, split.fitted_time_s > 0.0 ? 4.0 : 2.0);
+    const noise::MeanError one = error(left, split.fitted_time_s > 0.0 ? 4.0 : 2.0);
     if (means.size() < 4) return one;
-    const Scatter four = error(means, 1.0);
+    const noise::MeanError four = error(means, 1.0);
     const boost::math::fisher_f law(four.degrees, one.degrees);
     const double bound = boost::math::quantile(boost::math::complement(law, significance));
     return std::pow(four.sigma / one.sigma, 2) > bound ? four : one;
-}
-
-Value repeatability_of(const std::vector<Value>& runs) {
-    Value v = not_determined("bias_repeatability.deg_h", "needs two static records or more");
-    if (runs.size() < 2) return v;
-    double mean = 0.0, squares = 0.0;
-    const auto n = static_cast<double>(runs.size());
-    for (const Value& run : runs) mean += run.value / n, v.hours += run.hours;
-    for (const Value& run : runs) squares += std::pow(run.value - mean, 2);
-    v = deviation(v.name, std::sqrt(squares / (n - 1.0)), n - 1.0, v.hours);
-    v.reason = fmt::format("of {} records, their noise included", runs.size());
-    return v;
 }
 
 Value noise_value(const char* name, NoiseKind kind, const StillAxis& of) {
@@ -107,6 +92,17 @@ Value noise_value(const char* name, NoiseKind kind, const StillAxis& of) {
 
 bool scatters(double squares, double degrees) {
     return boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees), squares)) < significance;
+}
+
+Value repeatability(std::string_view name, const std::vector<Value>& runs, const char* missing) {
+    const auto open = std::ranges::find(runs, false, &Value::determined);
+    if (open != runs.end() || runs.size() < 2) return not_determined(name, runs.size() < 2 ? missing : open->reason);
+    calibration::Moments spread;
+    double hours = 0.0;
+    for (const Value& run : runs) spread.add(run.value), hours += run.hours;
+    Value v = deviation(name, std::sqrt(spread.variance()), static_cast<double>(runs.size()) - 1.0, hours);
+    v.reason = fmt::format("of {} records, their noise included", runs.size());
+    return v;
 }
 
 Value largest(const std::vector<Value>& runs) {
@@ -150,7 +146,7 @@ Value bias_of(const Plan& plan, const StillAxis& of) {
     if (axis.modes && axis.modes->segments.size() > 1) {
         const numeric::Estimate& part = axis.modes->nonmagnetic_arcsec_s;
         if (!part.determined) return not_determined(v.name, fmt::format("run {}: {}", of.run->number, part.reason));
-        const Scatter scatter = scatter_of(*axis.modes);
+        const noise::MeanError scatter = scatter_of(*axis.modes);
         v.value = part.value;
         v.uncertainty = scatter.sigma;
         v.degrees = scatter.degrees;
@@ -180,15 +176,8 @@ std::string wrong_way(const Plan& plan, const StillAxis& axis) {
 std::vector<Value> still_values(const Plan& plan, const std::vector<StillAxis>& axes) {
     std::vector<Value> biases;
     for (const StillAxis& axis : axes) biases.push_back(bias_of(plan, axis));
-    std::vector<Value> all;
-    const auto open = std::ranges::find(biases, false, &Value::determined);
-    if (open != biases.end()) {
-        all.push_back(*open);
-        all.push_back(not_determined("bias_repeatability.deg_h", open->reason));
-    } else {
-        all.push_back(together(biases));
-        all.push_back(repeatability_of(biases));
-    }
+    std::vector<Value> all{together(biases),
+                           repeatability("bias_repeatability.deg_h", biases, "needs two static records or more")};
     const auto longest = std::ranges::max_element(axes, {}, [](const StillAxis& a) { return known_s(a.result); });
     all.push_back(noise_value("bias_instability.deg_h", NoiseKind::bias_instability, *longest));
     all.push_back(noise_value("angle_random_walk.deg_sqrt_h", NoiseKind::angle_random_walk, *longest));

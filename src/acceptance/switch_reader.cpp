@@ -22,6 +22,10 @@ void SwitchReader::take(const core::HalfRecord& half) {
 
 // From the first half with the loop closed on, where the mode has changed.
 void SwitchReader::follow_lock(const core::HalfRecord& half) {
+    if (std::isfinite(half.detuning_lambda)) {
+        if (!std::isfinite(detuning_)) detuning_ = half.detuning_lambda;
+        detuning_varies_ = detuning_varies_ || half.detuning_lambda != detuning_;
+    }
     if (!half.loop_closed) {
         closed_halves_ = -1;
     } else if (!was_closed_ && half.mode != mode_before_open_) {
@@ -58,6 +62,7 @@ void SwitchReader::take(const core::AngleRow& row) {
 SwitchRecord SwitchReader::finish() {
     if (in_gap_ && !gap_switches_) ++record_.alarms;
     record_.lines = table_.lines();
+    record_.detuning_is_dead = std::isfinite(detuning_) && !detuning_varies_;
     record_.half_s = 0.5 * config_.gyro.tick_s;
     record_.hours = static_cast<double>(ticks_) * config_.gyro.tick_s / 3600.0;
     const config::Switching& s = config_.switching;

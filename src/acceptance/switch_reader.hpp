@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <zlg/config/config.hpp>
@@ -34,6 +35,8 @@ private:
     study::SwitchTable table_;
     core::HalfRecord first_;
     std::int64_t n_halves_ = 0;
+    double detuning_ = std::numeric_limits<double>::quiet_NaN();  // the first one
+    bool detuning_varies_ = false;
     bool was_closed_ = true;
     int mode_before_open_ = 0;
     std::int64_t closed_halves_ = -1;  // since a switch; -1: none is followed

@@ -3,44 +3,53 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
+
+#include <zlg/calibration/lab_log.hpp>
 
 #include "values.hpp"
 
 namespace zlg::acceptance {
 namespace {
 
-struct Mean {
-    double n = 0.0, value = 0.0, squares = 0.0;
-    void add(double x) {
-        n += 1.0;
-        const double before = x - value;
-        value += before / n;
-        squares += before * (x - value);
-    }
-};
+using calibration::Moments;
 
-Value mean_value(const char* name, const Mean& mean, double hours, double step, const char* missing) {
-    if (mean.n < 2.0) return not_determined(name, missing);
-    return {.name = name,
-            .determined = true,
-            .value = mean.value,
-            .uncertainty = std::sqrt(mean.squares / (mean.n - 1.0) / mean.n + step * step / 12.0),
-            .degrees = mean.n - 1.0,
-            .hours = hours};
+Value mean_value(const char* name, const Moments& of, double hours, double step, const char* missing) {
+    if (of.n < 2) return not_determined(name, missing);
+    const auto n = static_cast<double>(of.n);
+    return measured(name, of.mean, std::sqrt(of.variance() / n + step * step / 12.0), n - 1.0, hours);
+}
+
+// Whether the rotation changes while a switch lasts, gap and settling: the angles of neighbouring stretches of up to 64
+// samples differ by more than white noise of the shortest ones lets them, or a sinusoid swings.
+bool moves(const study::AxisResult& axis) {
+    constexpr std::int64_t of_switch = 64;
+    const auto& points = axis.allan.points;
+    const auto unit = [&points](const auto& p) {
+        return p.deviation * std::sqrt(p.tau_s) / (points.front().deviation * std::sqrt(points.front().tau_s));
+    };
+    if (std::ranges::any_of(points, [&](const auto& p) { return p.m <= of_switch && unit(p) > 2.0; })) return true;
+    const double third = axis.modes->statistics.rms_arcsec / 3.0;
+    return axis.fit && std::ranges::any_of(axis.fit->terms.sines, [third](const noise::SineTerm& s) {
+               return s.amplitude_arcsec_s > third * 2.0 * std::numbers::pi * s.frequency_hz;
+           });
 }
 
 // At rest the rotation over a switch is that of the segments beside it.
 Value error_value(const std::vector<StillAxis>& axes, double hours) {
+    constexpr const char* name = "switch_error.arcsec";
     double n = 0.0, squares = 0.0;
     for (const StillAxis& axis : axes) {
         if (axis.run->kind != RunKind::at_rest || !axis.result.modes) continue;
         const noise::SwitchStatistics& s = axis.result.modes->statistics;
+        if (s.n > 0 && moves(axis.result))
+            return not_determined(
+                name, fmt::format("run {}: the gyro turned unevenly, and by how much is not known", axis.run->number));
         n += static_cast<double>(s.n);
         squares += static_cast<double>(s.n) * s.rms_arcsec * s.rms_arcsec;
     }
-    constexpr const char* name = "switch_error.arcsec";
     if (n < 2.0) return not_determined(name, "needs a static raw log with two switches or more");
     return deviation(name, std::sqrt(squares / n), n, hours);
 }
@@ -63,12 +72,8 @@ std::vector<Value> constant_values(const study::CalibrationResult& found) {
     const auto add = [&](const char* name, const char* key, double factor) {
         const auto constant = std::ranges::find(found.calibration.constants, key, &calibration::Constant::key);
         const numeric::Estimate& e = constant->estimate;
-        all.push_back(e.determined ? Value{.name = name,
-                                           .determined = true,
-                                           .value = e.value * factor,
-                                           .uncertainty = e.sigma * factor,
-                                           .degrees = std::max(1.0, segments - 2.0),
-                                           .hours = hours}
+        const double degrees = std::max(1.0, segments - 2.0);
+        all.push_back(e.determined ? measured(name, e.value * factor, e.sigma * factor, degrees, hours)
                                    : not_determined(name, e.reason));
     };
     for (const auto& [name, key] : names) add(name, key, 1.0);
@@ -84,10 +89,10 @@ std::vector<Value> constant_values(const study::CalibrationResult& found) {
 }
 
 std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const std::vector<StillAxis>& axes) {
-    Mean relock, miss;
+    Moments relock, miss;
     double hours = 0.0, longest = 0.0, sigma = 0.0, n = 0.0, half_s = 0.0;
     std::int64_t alarms = 0, withheld = 0, unsettled = 0;
-    bool tells_interval = !logs.empty();
+    bool tells_interval = !logs.empty(), is_dead = false;
     for (const SwitchRecord& log : logs) {
         hours += log.hours;
         alarms += log.alarms;
@@ -95,6 +100,7 @@ std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const st
         half_s = log.half_s;
         tells_interval = tells_interval && log.withheld.has_value();
         withheld += log.withheld.value_or(0);
+        is_dead = is_dead || log.detuning_is_dead;
         for (const double s : log.relock_s) relock.add(s);
         for (const study::SwitchLine& line : log.lines) {
             n += 1.0;
@@ -105,13 +111,18 @@ std::vector<Value> switch_values(const std::vector<SwitchRecord>& logs, const st
     }
     constexpr const char* none = "the logs hold no switch";
     std::vector<Value> all;
-    all.push_back(
-        relock.n > 0.0 && unsettled > 0
-            ? not_determined("relock.s", fmt::format("after {} of {} switches detuning_lambda does not settle",
-                                                     unsettled, unsettled + std::llround(relock.n)))
-            : mean_value("relock.s", relock, hours, half_s, "needs two switches after which detuning_lambda settles"));
+    constexpr const char* dead = "needs detuning_lambda, which is absent or one value throughout";
+    if (is_dead)
+        all.push_back(not_determined("relock.s", dead));
+    else if (relock.n > 0 && unsettled > 0)
+        all.push_back(not_determined("relock.s", fmt::format("after {} of {} switches detuning_lambda does not settle",
+                                                             unsettled, unsettled + relock.n)));
+    else
+        all.push_back(
+            mean_value("relock.s", relock, hours, half_s, "needs two switches after which detuning_lambda settles"));
     all.push_back(n > 0.0 ? counted("gap.ticks", longest, hours) : not_determined("gap.ticks", none));
-    all.push_back(mean_value("miss.lambda", miss, hours, 0.0, "needs two switches with detuning_lambda"));
+    all.push_back(is_dead ? not_determined("miss.lambda", dead)
+                          : mean_value("miss.lambda", miss, hours, 0.0, "needs two switches with detuning_lambda"));
     all.push_back(n > 0.0 && std::isfinite(sigma)
                       ? counted("switch_sigma.arcsec", std::sqrt(sigma / n), hours)
                       : not_determined("switch_sigma.arcsec", n > 0.0 ? "a switch has no finite sigma" : none));

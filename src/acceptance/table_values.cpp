@@ -9,7 +9,6 @@
 #include <zlg/calibration/rate_table.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/deviations/series.hpp>
-#include <zlg/report/number_text.hpp>
 
 #include "moved_values.hpp"
 
@@ -22,7 +21,7 @@ using calibration::TableStage;
 constexpr const char* scale = "scale_factor.ppm";
 constexpr const char* nonlinearity = "scale_nonlinearity.ppm";
 constexpr const char* asymmetry = "scale_asymmetry.ppm";
-constexpr const char* repeatability = "scale_repeatability.ppm";
+constexpr const char* scale_repeatability = "scale_repeatability.ppm";
 constexpr const char* threshold = "threshold.deg_h";
 
 struct Turned {
@@ -36,6 +35,11 @@ struct Turned {
 
 std::vector<double> planned_rates(const Run& run, std::size_t n, double rate_hz) {
     std::vector<double> rates(n, std::numeric_limits<double>::quiet_NaN());
+    const double length_s = static_cast<double>(n + 1) / rate_hz;
+    if (!(run.stages.back().to_s <= length_s))
+        throw config::ConfigError(
+            fmt::format("{}: stages end at {:g} s, and the record at {:g} s; allowed is within it", run.place,
+                        run.stages.back().to_s, static_cast<double>(n) / rate_hz));
     for (const Stage& stage : run.stages) {
         const auto at = [&](double time_s) {
             return std::min(n, static_cast<std::size_t>(std::ceil(time_s * rate_hz)));
@@ -88,17 +92,6 @@ Value threshold_of(const Turned& of) {
     return v;
 }
 
-report::Figure residual_figure(const Turned& of, std::size_t index) {
-    report::Figure f = report::blank_figure(fmt::format("residuals-{}", index + 1),
-                                            fmt::format("Residuals of run {}", of.record->run->number),
-                                            "Output less the straight line, at each stage.", "rate of the table, deg/s",
-                                            "residual, ppm of the largest output");
-    report::Series points = report::blank_series("stages", report::Mark::points);
-    for (const TableStage& s : of.table.stages) report::add_point(points, s.input_arcsec_s / 3600.0, s.residual_ppm);
-    f.series = {std::move(points)};
-    return f;
-}
-
 std::vector<Turned> tables_of(const Plan& plan, const std::vector<RunRecord*>& records,
                               const config::Analysis& config) {
     std::vector<Turned> tables;
@@ -113,11 +106,8 @@ std::vector<Turned> tables_of(const Plan& plan, const std::vector<RunRecord*>& r
             Turned found{.record = record, .table = {}, .hours = static_cast<double>(n) / axis.rate_hz / 3600.0};
             if (plan.unit.scale_arcsec && !record->configs.empty())
                 found.nominal = *plan.unit.scale_arcsec / record->configs.front().gyro.scale_arcsec;
-            const calibration::RateTableOptions options{
-                .settling_samples = static_cast<std::int64_t>(
-                    std::min(std::ceil(config.table_settling_s * axis.rate_hz), static_cast<double>(n))),
-                .earth_arcsec_s =
-                    config.table_earth_arcsec_s + earth_about(plan.unit, record->run->axis).value_or(0.0)};
+            auto options = study::table_options(config, axis.rate_hz, n);
+            options.earth_arcsec_s += earth_about(plan.unit, record->run->axis).value_or(0.0);
             try {
                 found.table = calibration::rate_table(
                     by_plan ? planned_rates(*record->run, n, axis.rate_hz) : record->table_rates_arcsec_s,
@@ -144,37 +134,26 @@ Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, con
     std::string symmetric;
     for (const Turned& t : tables) {
         const numeric::Estimate &k = t.table.scale_factor, &a = t.table.asymmetry_ppm;
-        scales.push_back({.name = scale,
-                          .determined = true,
-                          .value = 1e6 * (k.value * t.nominal - 1.0),
-                          .uncertainty = 1e6 * t.nominal * as_found(k, t.degrees()),
-                          .degrees = t.degrees(),
-                          .hours = t.hours});
+        scales.push_back(measured(scale, 1e6 * (k.value * t.nominal - 1.0), 1e6 * t.nominal * as_found(k, t.degrees()),
+                                  t.degrees(), t.hours));
         if (a.determined)
-            asymmetries.push_back({.name = asymmetry,
-                                   .determined = true,
-                                   .value = a.value,
-                                   .uncertainty = a.sigma,
-                                   .degrees = t.degrees(),
-                                   .hours = t.hours});
+            asymmetries.push_back(measured(asymmetry, a.value, a.sigma, t.degrees(), t.hours));
         else
             symmetric = a.reason;
         squares += t.table.nonlinearity_ppm * t.table.nonlinearity_ppm * static_cast<double>(t.table.stages.size());
         degrees += t.degrees();
         hours += t.hours;
-        found.figures.push_back(residual_figure(t, found.figures.size()));
+        found.figures.push_back(study::residual_figure(config, t.table, fmt::format("run {}", t.record->run->number),
+                                                       found.figures.size()));
+        if (plan.unit.scale_arcsec && !(std::abs(k.value - 1.0) <= 0.1))
+            found.wrong_scale =
+                fmt::format("the rate table of run {} shows {:.4g} of the nominal scale, scale_arcsec = {:g}",
+                            t.record->run->number, k.value, *plan.unit.scale_arcsec);
     }
     found.values.push_back(together(scales));
     found.values.push_back(deviation(nonlinearity, std::sqrt(squares / degrees), degrees, hours));
     found.values.push_back(asymmetries.empty() ? not_determined(asymmetry, symmetric) : together(asymmetries));
-    if (scales.size() < 2) {
-        found.values.push_back(not_determined(repeatability, "needs two rate tables or more"));
-    } else {
-        double spread = 0.0;
-        for (const Value& one : scales) spread += std::pow(one.value - found.values.front().value, 2);
-        const auto free = static_cast<double>(scales.size()) - 1.0;
-        found.values.push_back(deviation(repeatability, std::sqrt(spread / free), free, hours));
-    }
+    found.values.push_back(repeatability(scale_repeatability, scales, "needs two rate tables or more"));
     std::vector<Value> thresholds;
     for (const Turned& t : tables) thresholds.push_back(threshold_of(t));
     found.values.push_back(largest(thresholds));

@@ -9,7 +9,8 @@
 
 namespace zlg::acceptance {
 
-// own, earlier  records as JSON; those of another type of unit, and the test itself, are left out of the earlier ones.
+// own, earlier  records as JSON; those of another type of unit are left out of the earlier ones, and each test counts
+// once.
 [[nodiscard]] report::Section trend_section(const Acceptance& test, const std::string& own,
                                             const std::vector<std::string>& earlier);
 

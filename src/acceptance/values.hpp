@@ -13,6 +13,8 @@
 
 namespace zlg::acceptance {
 
+inline constexpr double z_95 = 1.6448536269514722;  // of 95 % of a normal law
+
 // A record at rest, analysed.
 struct StillAxis {
     const Run* run = nullptr;
@@ -28,6 +30,9 @@ struct StillAxis {
 // scatter is the error of the mean; else their noise is.
 // One that is not determined leaves the mean open.
 [[nodiscard]] Value together(const std::vector<Value>& runs);
+
+// Standard deviation from run to run; `missing` says what fewer than two need.
+[[nodiscard]] Value repeatability(std::string_view name, const std::vector<Value>& runs, const char* missing);
 
 // The largest of one quantity over runs; one that is not determined leaves it open.
 [[nodiscard]] Value largest(const std::vector<Value>& runs);

@@ -1,6 +1,7 @@
 #include <zlg/acceptance/verdict.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -8,6 +9,8 @@
 
 namespace zlg::acceptance {
 namespace {
+
+bool is_exact(const Value& v) { return v.law == Law::without_error || v.uncertainty == 0.0; }
 
 double student_above(double distance, double degrees) {
     if (!std::isfinite(degrees) || degrees > 1e6) return 0.5 * std::erfc(distance / std::sqrt(2.0));
@@ -26,9 +29,16 @@ double poisson_above(const Value& v, double x) {
     return boost::math::gamma_q(std::round(v.value * v.hours) + 1.0, x * v.hours);
 }
 
+// A magnitude is below 0 with no probability, whatever its error; a value without one is where it is.
+double probability_below(const Value& v, double x) {
+    if (x <= 0.0 && is_magnitude(v.name)) return 0.0;
+    if (is_exact(v)) return v.value < x ? 1.0 : 0.0;
+    return 1.0 - probability_above(v, x);
+}
+
 double beyond(const Value& v, const Limit& limit) {
     return std::min(1.0, (limit.max ? probability_above(v, *limit.max) : 0.0) +
-                             (limit.min ? 1.0 - probability_above(v, *limit.min) : 0.0));
+                             (limit.min ? probability_below(v, *limit.min) : 0.0));
 }
 
 std::optional<Verdict> verdict_of(const Value& v, const Limit& limit, double risk) {
@@ -63,31 +73,15 @@ std::optional<double> hours_that_decide(const Value& v, const Limit& limit, doub
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::pass:
-            return "pass";
-        case Verdict::fail:
-            return "fail";
-        case Verdict::undecided:
-            return "undecided";
-        case Verdict::not_determined:
-            break;
-    }
-    return "not determined";
+    constexpr std::array<std::string_view, 4> names{"pass", "fail", "undecided", "not determined"};
+    return names.at(static_cast<std::size_t>(verdict));
 }
 
 double probability_above(const Value& v, double x) {
-    switch (v.law) {
-        case Law::chi:
-            return chi_above(v, x);
-        case Law::poisson:
-            return poisson_above(v, x);
-        case Law::without_error:
-            return v.value > x ? 1.0 : 0.0;
-        case Law::student:
-            break;
-    }
-    return v.uncertainty > 0.0 ? student_above((x - v.value) / v.uncertainty, v.degrees) : (v.value > x ? 1.0 : 0.0);
+    if (v.law == Law::chi) return chi_above(v, x);
+    if (v.law == Law::poisson) return poisson_above(v, x);
+    if (is_exact(v)) return v.value > x ? 1.0 : 0.0;
+    return student_above((x - v.value) / v.uncertainty, v.degrees);
 }
 
 Judged judge(const Value& value, const std::optional<Limit>& limit, double risk) {

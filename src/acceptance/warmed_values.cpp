@@ -7,12 +7,10 @@
 #include <span>
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
 
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/bias_temperature.hpp>
 #include <zlg/noise/mode_split.hpp>
-#include <zlg/numeric/minimum.hpp>
 #include <zlg/report/number_text.hpp>
 
 #include "moved_values.hpp"
@@ -23,7 +21,6 @@ namespace {
 constexpr const char* slope = "bias_temperature.deg_h_c";
 constexpr const char* hysteresis = "bias_hysteresis.deg_h";
 constexpr const char* settling = "warm_up.s";
-constexpr double significant = 4.0;  // standard deviations, as of the bend of a magnetic drift
 constexpr const char* sensitivity = "magnetic_sensitivity.deg_h_mt";
 
 // Rate and temperature, as means over a stretch of the run.
@@ -31,40 +28,37 @@ struct Point {
     double time_s = 0.0, rate = 0.0, temperature_c = 0.0;
 };
 
-// Of a switched gyro its non-magnetic part, segment by segment; else means over 128 equal stretches.
+// Of what is known from one time to another; NaN: nothing.
+double mean_over(const std::vector<double>& values, double from, double to) {
+    double known = 0.0, sum = 0.0;
+    const auto end = std::min(values.size(), static_cast<std::size_t>(to));
+    for (auto k = static_cast<std::size_t>(std::max(0.0, from)); k < end; ++k)
+        if (std::isfinite(values[k])) known += 1.0, sum += values[k];
+    return sum / known;
+}
+
+// Of a switched gyro its non-magnetic part, segment by segment; else means over 128 equal stretches. The temperature,
+// where it was measured, is the mean around each.
 std::vector<Point> course_of(const study::AxisRecord& axis) {
-    constexpr std::size_t n_stretches = 128;
-    const std::size_t n = axis.rates_arcsec_s.size();
+    constexpr double n_stretches = 128.0;
+    const double length_s = static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz;
     std::vector<Point> course;
+    double apart_s = length_s / n_stretches;
     if (!axis.mode.empty()) {
         const noise::ModeSplit split = noise::split_modes(
             {.rate_hz = axis.rate_hz, .rates_arcsec_s = axis.rates_arcsec_s, .bridged_arcsec_s = {}, .mode = axis.mode},
             20);
         for (const noise::ModePoint& p : split.points) course.push_back({p.time_s, p.nonmagnetic_arcsec_s, 0.0});
+        if (course.size() > 1) apart_s = course[1].time_s - course[0].time_s;
     }
-    for (std::size_t k = 0; course.size() < n_stretches && k < n_stretches && (k > 0 || course.empty()); ++k) {
-        const std::size_t from = k * n / n_stretches, to = (k + 1) * n / n_stretches;
-        double known = 0.0, sum = 0.0;
-        for (std::size_t j = from; j < to; ++j)
-            if (std::isfinite(axis.rates_arcsec_s[j])) known += 1.0, sum += axis.rates_arcsec_s[j];
-        if (known > 0.0) course.push_back({0.5 * static_cast<double>(from + to) / axis.rate_hz, sum / known, 0.0});
-    }
-    return course;
-}
-
-// The mean of the temperatures around each point.
-std::vector<Point> with_temperature(std::vector<Point> course, const study::AxisRecord& axis) {
-    const double rate_hz = axis.rate_hz;
-    const double half_s = course.size() > 1 ? 0.5 * (course[1].time_s - course[0].time_s) : 1.0;
-    for (Point& p : course) {
-        double known = 0.0, sum = 0.0;
-        const auto from = static_cast<std::size_t>(std::max(0.0, (p.time_s - half_s) * rate_hz));
-        const auto to = std::min(axis.temperature_c.size(), static_cast<std::size_t>((p.time_s + half_s) * rate_hz));
-        for (std::size_t k = from; k < to; ++k)
-            if (std::isfinite(axis.temperature_c[k])) known += 1.0, sum += axis.temperature_c[k];
-        p.temperature_c = known > 0.0 ? sum / known : std::numeric_limits<double>::quiet_NaN();
-    }
-    std::erase_if(course, [](const Point& p) { return !std::isfinite(p.temperature_c); });
+    const auto around = [&](const std::vector<double>& values, double time_s) {
+        return mean_over(values, (time_s - 0.5 * apart_s) * axis.rate_hz, (time_s + 0.5 * apart_s) * axis.rate_hz);
+    };
+    if (course.empty())
+        for (double k = 0.5; k < n_stretches; k += 1.0)
+            course.push_back({k * apart_s, around(axis.rates_arcsec_s, k * apart_s), 0.0});
+    for (Point& p : course) p.temperature_c = around(axis.temperature_c, p.time_s);
+    std::erase_if(course, [](const Point& p) { return !std::isfinite(p.rate); });
     return course;
 }
 
@@ -81,38 +75,36 @@ report::Figure course_figure(const RunRecord& record, std::size_t axis, const st
     return f;
 }
 
-// A (1 - ...) of the warming: rate = b + a exp(-t/tau), by least squares for each tau.
-struct Warming {
-    double a = 0.0, b = 0.0, tau_s = 1.0, residual = 0.0;
+// When the bias was last seen outside the band, and when it may have been at the earliest and at the latest.
+struct Settling {
+    double seen_s = 0.0, earliest_s = 0.0, latest_s = 0.0;
 };
 
-Warming warming_of(const std::vector<Point>& course, double tau_s) {
-    Eigen::MatrixX2d laws(std::ssize(course), 2);
-    Eigen::VectorXd y(std::ssize(course));
-    for (Eigen::Index k = 0; k < y.size(); ++k) {
-        const Point& p = course[static_cast<std::size_t>(k)];
-        laws.row(k) << std::exp(-p.time_s / tau_s), 1.0;
-        y[k] = p.rate;
+// Each mean of the course, over the quarter of its time around it, against that of the last quarter of the run. What
+// it may be off by: noise, from the steps of the second half, and the end itself, which may still move: of a decay
+// that takes up to 0.85 of the run three times what the last quarter differs by from the one before is left.
+Settling settling_in(const std::vector<Point>& course, double band) {
+    const std::size_t n = course.size(), quarter = n / 4;
+    std::vector<double> sums{0.0};
+    for (const Point& p : course) sums.push_back(sums.back() + p.rate);
+    const auto mean = [&](std::size_t from, std::size_t to) {
+        return (sums[to] - sums[from]) / static_cast<double>(to - from);
+    };
+    double steps = 0.0;
+    for (std::size_t k = n / 2 + 1; k < n; ++k) steps += std::pow(course[k].rate - course[k - 1].rate, 2);
+    const double variance = 0.5 * steps / static_cast<double>(n - n / 2 - 1), end = mean(n - quarter, n);
+    const double moves = 3.0 * std::abs(mean(n - 2 * quarter, n - quarter) - end);
+    Settling s;
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t from = k - k / 8, to = std::min(n, k + k / 8 + 1);
+        const double off = std::abs(mean(from, to) - end), parts = 1.0 / static_cast<double>(to - from);
+        const double slack = z_95 * std::sqrt(variance * (parts + 1.0 / static_cast<double>(quarter))) + moves;
+        const double time_s = k + 1 < n ? 0.5 * (course[k].time_s + course[k + 1].time_s) : course[k].time_s;
+        if (off > band) s.seen_s = time_s;
+        if (off - slack > band) s.earliest_s = time_s;
+        if (off + slack > band) s.latest_s = time_s;
     }
-    const Eigen::Vector2d c = laws.colPivHouseholderQr().solve(y);
-    return {c[0], c[1], tau_s, (y - laws * c).squaredNorm()};
-}
-
-// The errors of a and of t = tau ln(|a|/band), from the covariance of a, b and tau at the solution.
-struct WarmingError {
-    double a = 0.0, time_s = 0.0;
-};
-
-WarmingError error_of(const std::vector<Point>& course, const Warming& w, double band) {
-    Eigen::MatrixX3d j(std::ssize(course), 3);
-    for (Eigen::Index k = 0; k < j.rows(); ++k) {
-        const double t = course[static_cast<std::size_t>(k)].time_s, e = std::exp(-t / w.tau_s);
-        j.row(k) << e, 1.0, w.a * e * t / (w.tau_s * w.tau_s);
-    }
-    const double variance = w.residual / static_cast<double>(j.rows() - 3);
-    const Eigen::Matrix3d covariance = (j.transpose() * j).inverse() * variance;
-    const Eigen::Vector3d gradient{w.tau_s / w.a, 0.0, std::log(std::max(1.0, std::abs(w.a) / band))};
-    return {std::sqrt(covariance(0, 0)), std::sqrt(gradient.dot(covariance * gradient))};
+    return s;
 }
 
 // Slope and hysteresis of one axis.
@@ -122,7 +114,8 @@ std::array<Value, 2> temperature_of(const RunRecord& record, std::size_t index, 
         return std::array{not_determined(slope, why), not_determined(hysteresis, why)};
     };
     if (axis.temperature_c.empty()) return refuse("needs a log with temperature_c");
-    const std::vector<Point> course = with_temperature(course_of(axis), axis);
+    std::vector<Point> course = course_of(axis);
+    std::erase_if(course, [](const Point& p) { return !std::isfinite(p.temperature_c); });
     std::vector<double> rates, temperatures;
     for (const Point& p : course) {
         rates.push_back(p.rate);
@@ -139,38 +132,30 @@ std::array<Value, 2> temperature_of(const RunRecord& record, std::size_t index, 
     const double hours = (course.back().time_s - course.front().time_s) / 3600.0;
     const auto value_of = [hours](const char* name, const numeric::Estimate& e, double value) {
         if (!e.determined) return not_determined(name, e.reason);
-        return Value{.name = name, .determined = true, .value = value, .uncertainty = e.sigma, .hours = hours};
+        return measured(name, value, e.sigma, std::numeric_limits<double>::infinity(), hours);
     };
     return {value_of(slope, law.bias[1], law.bias[1].value),
             value_of(hysteresis, law.hysteresis_arcsec_s, std::abs(law.hysteresis_arcsec_s.value))};
 }
 
-// Time from the start until the bias stays within the band.
+// Time from the start until the bias stays within the band about its end.
 Value settling_of(const RunRecord& record, std::size_t index, double band, std::vector<report::Figure>& figures) {
-    const std::vector<Point> course = course_of(record.axes[index]);
-    if (course.size() < 8) return not_determined(settling, "needs eight means over the run");
+    std::vector<Point> course = course_of(record.axes[index]);
+    if (!record.axes[index].mode.empty()) {
+        // Each is made of three segments: only every third is one of its own.
+        std::size_t k = 0;
+        std::erase_if(course, [&k](const Point&) { return k++ % 3 != 1; });
+    }
+    if (course.size() < 16) return not_determined(settling, "needs 16 means over the run");
     figures.push_back(course_figure(record, index, course, "Warming", false));
     const double length_s = course.back().time_s;
-    const auto left = [&](double log_tau) { return warming_of(course, std::exp(log_tau)).residual; };
-    const double log_tau = numeric::scanned_minimum(left, std::log(length_s / 100.0), std::log(length_s), 60).at;
-    const Warming w = warming_of(course, std::exp(log_tau));
-    const WarmingError error = error_of(course, w, band);
-    Value v = counted(settling, 0.0, length_s / 3600.0);
-    if (!(std::abs(w.a) > significant * error.a)) {
-        if (!(std::abs(w.a) + significant * error.a < band))
-            return not_determined(settling,
-                                  "the bias does not bend by more than its noise, and that is more than the band");
-        v.reason = "the bias changes by less than the band";
-        return v;
-    }
-    v.value = w.tau_s * std::log(std::max(1.0, std::abs(w.a) / band));
-    v.uncertainty = error.time_s;
-    v.degrees = static_cast<double>(course.size()) - 3.0;
-    v.law = Law::student;
-    if (!(v.value + v.uncertainty < length_s))
-        return not_determined(settling, "needs a longer run: the bias has not settled within it");
-    v.reason = fmt::format("bias b + a exp(-t/tau), a = {} deg/h, tau = {} s", report::short_number(w.a),
-                           report::short_number(w.tau_s));
+    const Settling found = settling_in(course, band);
+    if (!(found.latest_s < 0.75 * length_s))
+        return not_determined(settling, "needs a longer run: at the end it is not sure that the bias has settled");
+    const double off_s = std::max(found.latest_s - found.seen_s, found.seen_s - found.earliest_s);
+    Value v =
+        measured(settling, found.seen_s, off_s / z_95, std::numeric_limits<double>::infinity(), length_s / 3600.0);
+    v.reason = "last time outside the band about the last quarter of the run";
     return v;
 }
 
@@ -190,13 +175,11 @@ Found temperature_values(const std::vector<RunRecord*>& records) {
 }
 
 Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
-    Found found;
     const double band = plan.warm_up_band_deg_h;
-    if (band == 0.0) {
-        found.values = {
-            not_determined(settling, "needs [accept] warm_up_band_deg_h: within which the bias has settled")};
-        return found;
-    }
+    if (band == 0.0)
+        return {
+            .values = {not_determined(settling, "needs [accept] warm_up_band_deg_h: within which the bias settles")}};
+    Found found;
     std::vector<Value> times;
     for (const RunRecord* record : records)
         for (std::size_t k = 0; k < record->axes.size(); ++k)
@@ -241,12 +224,7 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
                              "Bias of each run, with twice its standard uncertainty.", "field, mT", "bias, deg/h");
     f.series = {std::move(points)};
     found.figures = {std::move(f)};
-    found.values.push_back({.name = sensitivity,
-                            .determined = true,
-                            .value = xy / xx,
-                            .uncertainty = 1.0 / std::sqrt(xx),
-                            .degrees = degrees,
-                            .hours = hours});
+    found.values.push_back(measured(sensitivity, xy / xx, 1.0 / std::sqrt(xx), degrees, hours));
     if (const double free = static_cast<double>(runs.size()) - 2.0; free > 0.0) {
         if (scatters(tested, free)) {
             found.values.back().uncertainty *= std::sqrt(tested / free);

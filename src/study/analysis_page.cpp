@@ -215,23 +215,33 @@ report::Section table_section(const config::Analysis& config, const TableResult&
     report::Table stages{
         .caption = "Stages; residuals in ppm of the output at the largest input.",
         .header = {"input, " + shown_unit(config.unit), "output, units/s", "its sigma", "samples", "residual, ppm"}};
-    Figure f = report::blank_figure(fmt::format("residuals-{}", index + 1), "Residuals of " + test.name,
-                                    "Output less the straight line.", "input, " + shown_unit(config.unit),
-                                    "residual, ppm of the largest output");
-    Series points = blank_series("stages", Mark::points);
-    for (const calibration::TableStage& stage : r.stages) {
+    for (const calibration::TableStage& stage : r.stages)
         stages.rows.push_back({fmt::format("{:.6g}", shown_rate(config.unit, stage.input_arcsec_s)),
                                fmt::format("{:.9g}", stage.output), short_number(stage.output_sigma),
                                fmt::format("{}", stage.n_samples), short_number(stage.residual_ppm)});
-        add_point(points, shown_rate(config.unit, stage.input_arcsec_s), stage.residual_ppm);
-    }
-    f.series = {std::move(points)};
-    s.figures.push_back(std::move(f));
+    s.figures.push_back(residual_figure(config, r, test.name, index));
     s.tables.push_back(std::move(stages));
     return s;
 }
 
 }  // namespace
+
+calibration::RateTableOptions table_options(const config::Analysis& config, double rate_hz, std::size_t n) {
+    const double settling = std::min(std::ceil(config.table_settling_s * rate_hz), static_cast<double>(n));
+    return {.settling_samples = static_cast<std::int64_t>(settling), .earth_arcsec_s = config.table_earth_arcsec_s};
+}
+
+report::Figure residual_figure(const config::Analysis& config, const calibration::RateTable& table,
+                               const std::string& of, std::size_t index) {
+    Figure f = report::blank_figure(fmt::format("residuals-{}", index + 1), "Residuals of " + of,
+                                    "Output less the straight line.", "input, " + shown_unit(config.unit),
+                                    "residual, ppm of the largest output");
+    Series points = blank_series("stages", Mark::points);
+    for (const calibration::TableStage& stage : table.stages)
+        add_point(points, shown_rate(config.unit, stage.input_arcsec_s), stage.residual_ppm);
+    f.series = {std::move(points)};
+    return f;
+}
 
 std::vector<report::Figure> axis_figures(const config::Analysis& config, const AxisResult& axis, std::size_t index) {
     static const std::optional<PresumedNoise> none;

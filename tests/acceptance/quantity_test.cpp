@@ -14,6 +14,10 @@ TEST(Quantity, each_has_a_name_of_its_own_and_says_what_it_needs) {
         EXPECT_FALSE(q.needs.empty() || q.words.empty() || q.kinds.empty()) << q.name;
     }
     EXPECT_EQ(find_quantity("bias"), nullptr);
+    const auto of = [](bool (*has)(std::string_view)) {
+        return std::ranges::count_if(quantities(), [has](const QuantityInfo& q) { return has(q.name); });
+    };
+    EXPECT_EQ(std::ssize(quantities()) - of(is_magnitude), 9) << "names of those with a sign";
 }
 
 TEST(Quantity, a_wrong_name_and_a_wrong_unit_are_told_apart) {

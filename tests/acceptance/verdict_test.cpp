@@ -63,6 +63,22 @@ TEST(Verdict, what_is_counted_is_compared) {
     EXPECT_EQ(judge(gap, at_most(2.0), 0.05).verdict, Verdict::fail);
 }
 
+TEST(Verdict, no_magnitude_is_below_nothing) {
+    const Limit band{.name = "bias_hysteresis.deg_h", .min = 0.0, .max = 1.0};
+    Value width = student(0.01, 0.1, 10.0);
+    EXPECT_EQ(judge(width, band, 0.05).verdict, Verdict::undecided) << "a bias has either sign";
+    width.name = "bias_hysteresis.deg_h";
+    EXPECT_EQ(judge(width, band, 0.05).verdict, Verdict::pass);
+    width.value = width.uncertainty = 0.0;
+    EXPECT_EQ(judge(width, band, 0.05).verdict, Verdict::pass);
+    EXPECT_EQ(judge(width, Limit{.name = width.name, .min = 0.5, .max = 1.0}, 0.05).verdict, Verdict::fail);
+    // What is counted may be at either limit.
+    width = {.name = "switches_withheld.count", .determined = true, .value = 2.0, .law = Law::without_error};
+    EXPECT_EQ(judge(width, Limit{.name = width.name, .min = 2.0, .max = 2.0}, 0.05).verdict, Verdict::pass);
+    width = {.name = "alarms.per_h", .determined = true, .value = 0.0, .law = Law::poisson, .hours = 10.0};
+    EXPECT_EQ(judge(width, band, 0.05).verdict, Verdict::pass);
+}
+
 TEST(Verdict, four_times_the_time_halves_the_guard_band) {
     // 0.8225 u from the limit: half of 1.645 u, which 4 h, 3 h more, would make a whole one.
     const Judged open = judge(student(1.0 - 0.8225, 1.0, INFINITY), at_most(1.0), 0.05);

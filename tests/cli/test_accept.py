@@ -180,6 +180,42 @@ class Accept(CliTest):
         self.assertEqual(quantities["half_wave.v"]["value"], constants["piezo.half_wave_v"]["value"])
         self.assertEqual(quantities["half_wave.v"]["uncertainty"], constants["piezo.half_wave_v"]["sigma"])
 
+    def test_the_error_of_a_switch_is_that_of_a_gyro_at_rest(self):
+        raw = self.at("raw.h5")
+        for motion, hz, determined in [("rest", 7, True), ("constant", 7, True), ("sine", 0.1, False), ("sine", 7, False), ("sine", 70, False)]:
+            with self.subTest(motion, hz=hz):
+                sets = ["--set", f"motion.kind={motion}", "--set", f"motion.frequency_hz={hz}", "--set", "motion.rate_arcsec_s=500"]
+                self.assertEqual(run("simulate", "--duration", 200, *sets, "--out", raw, "--force").returncode, 0)
+                plan = self.plan([f'files = ["{raw.name}"]\nkind = "static"\n'])
+                error = self.judged(plan, 1)[1]["switch_error.arcsec"]
+                self.assertEqual(error["verdict"] != "not determined", determined, error)
+
+    def test_a_lock_that_does_not_settle_and_a_dead_detuning_give_no_time_of_relock(self):
+        raw = self.at("raw.csv")
+        self.assertEqual(run("simulate", "--duration", 200, "--set", "motion.kind=rest", "--out", raw).returncode, 0)
+        whole = raw.read_text().splitlines()
+        names = next(line for line in whole if line.startswith("half,")).split(",")
+        at, first = names.index("detuning_lambda"), whole.index(",".join(names)) + 1
+        # A value of the noise that calibrate refuses of so short a record is that of the record at rest.
+        constants = json.loads(run("calibrate", raw, "--json").stdout)["constants"]
+        self.assertNotIn("drift.random_walk_arcsec_sqrt_s", constants)
+        plan = self.plan([f'files = ["{raw.name}"]\nkind = "static"\n'])
+        self.assertEqual(self.judged(plan, 1)[1]["angle_random_walk.deg_sqrt_h"]["verdict"], None)
+        # Three seconds of two hundred without a measurement.
+        rows = [line.split(",") for line in whole[first:]]
+        for row in rows[20000:21200]:
+            row[names.index("valid")] = "0"
+        raw.write_text("\n".join(whole[:first] + [",".join(row) for row in rows]) + "\n")
+        self.assertIn("samples are missing", self.judged(plan, 1)[1]["bias.deg_h"]["reason"])
+        for column, why in [(lambda value: value + 0.1, "switches detuning_lambda does not settle"), (lambda value: 0.001, "absent or one value throughout")]:
+            rows = [line.split(",") for line in whole[first:]]
+            for row in rows:
+                row[at] = repr(column(float(row[at])))
+            raw.write_text("\n".join(whole[:first] + [",".join(row) for row in rows]) + "\n")
+            relock = self.judged(self.plan([f'files = ["{raw.name}"]\nkind = "switching"\n']), 1)[1]["relock.s"]
+            self.assertEqual(relock["verdict"], "not determined")
+            self.assertIn(why, relock["reason"])
+
     def report(self, name, seed=1, limit='"bias.deg_h" = { min = -1, max = 1 }\n', unit='serial = "A1"\ntype = "Z"\ndate = 2026-01-02\n'):
         log = self.rates("a.csv", white(5000, 1.0, seed=seed))
         plan = self.plan([self.static(log)], limit, unit)
@@ -218,6 +254,11 @@ class Accept(CliTest):
         result = run("accept", plan, "--history", self.at("old"))
         self.assertEqual(result.returncode, 0, result.stderr)
         rows = result.stdout[result.stdout.index("Earlier tests"):]
+        # The same reports once more, and one of this test, made without the others.
+        self.at("old/copy.html").write_bytes(self.at("old/1.html").read_bytes())
+        self.assertEqual(run("accept", plan, "--out", self.at("old/own.html")).returncode, 0)
+        again = run("accept", plan, "--history", self.at("old")).stdout
+        self.assertEqual(again[again.index("Earlier tests"):], rows)
         self.assertLess(rows.index("A0"), rows.index("A1"))
         self.assertNotIn("B0", rows)
         page = self.at("old/1.html")
@@ -236,6 +277,7 @@ class Accept(CliTest):
         again = self.rates("b.csv", white(2000, 1.0))
         self.assertIn("once more", self.refusal(3, self.plan([self.static(log, again)])))
         self.assertIn("once more", self.refusal(3, self.plan([self.static(log), self.static(again)])))
+        self.assertIn("once more", self.refusal(3, self.plan([self.static(log, log)])))
         self.assertIn("no run of the plan gives it", self.refusal(2, self.plan([self.static(log)], '"scale_factor.ppm" = { max = 1 }\n')))
         self.assertIn("given in deg/h", self.refusal(2, self.plan([self.static(log)], '"bias.rad_s" = { max = 1 }\n')))
         self.assertIn("cannot", self.refusal(3, self.plan([self.static(self.at("none.csv"))])))
@@ -243,6 +285,28 @@ class Accept(CliTest):
         self.refusal(2, self.write("big.toml", "#" * 10_000_000))
         self.refusal(2, log, again)
         self.refusal(2, "--plan", "--verify", log)
+
+    def test_a_scale_that_the_plan_contradicts_is_named(self):
+        unit = 'serial = "A1"\nscale_arcsec = 2.0\n'
+        counts = "".join(f"{round(v)}\n" for v in white(2000, 20.0).tolist())
+        mapped = 'holds = "increment"\nunit = "counts"\nrate_hz = 10\n'
+        log = self.write("a.csv", f"Scale factor: 3,263 arcsec/count\npulses\n{counts}")
+        self.assertIn("a count is 3.263 arcsec there, and 2 by scale_arcsec of [unit]",
+                      self.refusal(2, self.plan([self.static(log, mapped=mapped)], unit=unit)))
+        agrees = unit.replace("2.0", "3.27")
+        self.judged(self.plan([self.static(log, mapped=mapped)], unit=agrees), 1)
+        self.assertIn("and 3.27 by", self.refusal(2, self.plan([self.static(log, mapped=mapped + "scale_arcsec = 5\n")], unit=agrees)))
+        raw = self.at("raw.csv")
+        self.assertEqual(run("simulate", "--duration", 20, "--out", raw).returncode, 0)
+        self.assertIn("and 2 by", self.refusal(2, self.plan([self.static(raw, mapped="")], unit=unit)))
+        # What the rate table shows of the nominal scale stops the static run too.
+        rates = [-20.0, -10.0, 0.0, 10.0, 20.0]
+        turned = "".join(f"{round(360.0 * rate / 3.0 + v)}\n" for rate in rates for v in white(600, 3.0).tolist())
+        table = self.write("table.csv", "pulses\n" + turned)
+        still = self.write("still.csv", "pulses\n" + counts)
+        stages = ", ".join(f"{{ from_s = {60 * k}, to_s = {60 * k + 60}, rate_deg_s = {rate} }}" for k, rate in enumerate(rates))
+        plan = self.plan([self.static(still, mapped=mapped), f'files = ["{table.name}"]\nkind = "rate_table"\nstages = [{stages}]\n{mapped}'], unit=unit)
+        self.assertIn("the rate table of run 2 shows 0.6667 of the nominal scale", self.judged(plan, 1)[1]["bias.deg_h"]["reason"])
 
     def test_two_logs_of_one_run_may_not_overlap(self):
         rates = white(400, 1.0).tolist()

@@ -61,7 +61,8 @@ Score score(const std::function<Series(std::uint64_t)>& draw) {
     return s;
 }
 
-// Slow noise that hardly shows makes the error of a mean too small by sixteen where it is taken for none.
+// Slow noise that hardly shows makes the error of a mean too small by up to sixteen where it is taken for none. Both
+// bounds count: a sigma half as large or twice as large is found.
 TEST(MeanError, covers_slow_noise_that_does_not_show) {
     // By another program, of three times 4000 such series from other random numbers: the mean square, its standard
     // deviation for 400 series, and the part beyond.

@@ -175,10 +175,17 @@ bool keeps(int n, int wrong, double risk) {
     return wrong == 0 || 1.0 - fewer > 1e-3;
 }
 
+// Mean square of n normal numbers, beyond which one in 1000 lies on that side (Wilson and Hilferty, 1931).
+double chance_of(int n, double side) {
+    const double part = 2.0 / (9.0 * n);
+    return std::pow(std::max(0.0, 1.0 - part + 3.09 * side * std::sqrt(part)), 3);
+}
+
 }  // namespace
 
 bool VerdictScore::is_good(double risk) const {
-    const bool errors = known < 30 || (mean_square() > 0.7 && mean_square() < 1.4);
+    const bool errors = known > 0 && mean_square() >= std::min(0.7, chance_of(known, -1.0)) &&
+                        mean_square() <= std::max(1.4, chance_of(known, 1.0));
     return keeps(beyond, passed, risk) && keeps(within, failed, risk) && errors;
 }
 

@@ -16,9 +16,19 @@ TEST(AcceptCampaign, verdicts_keep_their_risk_and_stop_at_what_is_no_measurement
 
 TEST(AcceptCampaign, a_risk_that_is_not_kept_is_found) {
     // Of 100 with a chance of 0.05 each 15 or more are wrong once in ten thousand.
-    EXPECT_FALSE((trials::VerdictScore{.beyond = 100, .passed = 15}.is_good(0.05)));
-    EXPECT_TRUE((trials::VerdictScore{.beyond = 100, .passed = 9}.is_good(0.05)));
-    EXPECT_FALSE((trials::VerdictScore{.known = 100, .squares = 150.0}.is_good(0.05)));
+    const auto is_good = [](int passed, int known, double mean_square) {
+        return trials::VerdictScore{.beyond = 100, .passed = passed, .known = known, .squares = known * mean_square}
+            .is_good(0.05);
+    };
+    EXPECT_FALSE(is_good(15, 100, 1.0));
+    EXPECT_TRUE(is_good(9, 100, 1.0));
+    EXPECT_FALSE(is_good(9, 100, 1.5));
+    EXPECT_FALSE(is_good(9, 100, 0.5));
+    EXPECT_FALSE(is_good(9, 0, 1.0));
+    // chi-square of 4 degrees: 18.5 at 0.999, and 0.0908 at 0.001.
+    EXPECT_FALSE(is_good(9, 4, 18.8 / 4.0));
+    EXPECT_TRUE(is_good(9, 4, 18.0 / 4.0));
+    EXPECT_FALSE(is_good(9, 4, 0.03 / 4.0));
 }
 
 }  // namespace zlg::accept_campaign_test

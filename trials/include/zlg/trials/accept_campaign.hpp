@@ -23,7 +23,8 @@ struct VerdictScore {
     double squares = 0.0;  // of error over uncertainty
 
     [[nodiscard]] double mean_square() const { return known > 0 ? squares / known : 0.0; }
-    // So many false verdicts have a chance above 0.001 where the risk is kept; and the errors are as they are stated.
+    // So many false verdicts have a chance above 0.001 where the risk is kept; and the errors are as they are stated:
+    // of many the mean square is 0.7 to 1.4, of few within what one in 1000 goes beyond on either side. Of none: false.
     [[nodiscard]] bool is_good(double risk) const;
 };
 

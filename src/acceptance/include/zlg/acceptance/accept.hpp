@@ -49,7 +49,8 @@ struct AcceptTask {
 };
 
 // errors  as read_plan; logs::IoError, logs::FormatError, logs::MappingError, config::ConfigError: a log that is not
-// what the plan says, one of another serial number, one that stands twice.
+// what the plan says, one of another serial number, one that stands twice, one that ends before the stages of its
+// table.
 [[nodiscard]] Acceptance accept(const AcceptTask& task);
 
 }  // namespace zlg::acceptance

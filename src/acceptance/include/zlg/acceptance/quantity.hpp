@@ -24,6 +24,8 @@ struct QuantityInfo {
 [[nodiscard]] std::span<const QuantityInfo> quantities();
 // nullptr: there is none.
 [[nodiscard]] const QuantityInfo* find_quantity(std::string_view name);
+// Never below 0: a deviation, a time, a number.
+[[nodiscard]] bool is_magnitude(std::string_view name);
 // Of a name that is none: the nearest one, and the unit where only that is wrong.
 [[nodiscard]] std::string unknown_quantity(std::string_view name);
 
@@ -51,6 +53,8 @@ struct Value {
 [[nodiscard]] Value not_determined(std::string_view name, std::string reason);
 // What was counted or read, without an error.
 [[nodiscard]] Value counted(std::string_view name, double value, double hours);
+// By the law of Student.
+[[nodiscard]] Value measured(std::string_view name, double value, double uncertainty, double degrees, double hours);
 // A standard deviation, by the law of chi-square.
 [[nodiscard]] Value deviation(std::string_view name, double value, double degrees, double hours);
 

@@ -1,10 +1,10 @@
 #pragma once
 // What the mean of a record is uncertain by, where slow noise may hide under the white noise.
 //
-// Noise is white, white and a random walk of the rate, or white and flicker. A record that is longer than half the
-// time at which a walk crosses the white noise, and shorter than thirty times it, tells hardly which: chosen for the
-// greatest likelihood, white noise would leave an error of 16 of its deviations unsaid. So sigma^2 is the mean of the
-// mean's variance over all these laws, each with its probability (Bayes; Box and Tiao, Bayesian Inference in
+// Noise is white, white and a random walk of the rate, or white and flicker. A record that is 2, 4, 8 or 16 times as
+// long as the time at which a walk crosses the white noise has its greatest likelihood as white in 44, 24, 8 and 1 of
+// 100 cases (20000 spectra by numpy), with an error of 2, 4, 8 and 16 deviations of white noise. So sigma^2 is the mean
+// of the mean's variance over all these laws, each with its probability (Bayes; Box and Tiao, Bayesian Inference in
 // Statistical Analysis, 1973), and the kurtosis of the mixture gives the degrees of freedom. Without prejudice of the
 // scale (weight 1/variance) a law of the shape S_k has of the spectrum X_k^2, k = 1 ... m, the restricted likelihood
 //

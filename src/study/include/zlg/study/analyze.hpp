@@ -73,6 +73,14 @@ inline constexpr double earth_rate_arcsec_s = 15.041067;
 [[nodiscard]] std::vector<report::Figure> axis_figures(const config::Analysis& config, const AxisResult& axis,
                                                        std::size_t index);
 
+// What the configuration says of a rate table, for a record of n samples.
+[[nodiscard]] calibration::RateTableOptions table_options(const config::Analysis& config, double rate_hz,
+                                                          std::size_t n);
+
+// The residuals of a rate table at each stage.
+[[nodiscard]] report::Figure residual_figure(const config::Analysis& config, const calibration::RateTable& table,
+                                             const std::string& of, std::size_t index);
+
 // A rate in the unit that the configuration shows, and its name.
 [[nodiscard]] double shown_rate(config::ShownRate unit, double arcsec_s);
 [[nodiscard]] std::string shown_unit(config::ShownRate unit);
