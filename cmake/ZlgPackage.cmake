@@ -30,6 +30,7 @@ foreach(pair program:zlg development:libzlg-dev python:python3-zlg)
         endif()" COMPONENT ${component})
 endforeach()
 install(FILES README.md ARCHITECTURE.md CHANGELOG.md CONTRIBUTING.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+install(FILES tests/regressions.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tests COMPONENT doc)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc
     FILES_MATCHING PATTERN *.py PATTERN *.m PATTERN *.toml PATTERN main.cpp PATTERN CMakeLists.txt)

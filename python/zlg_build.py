@@ -24,7 +24,7 @@ def version():
     return re.search(r"project\(zlg VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
 
 
-def metadata():
+def metadata(packages=()):
     head = {
         "Metadata-Version": "2.1",
         "Name": "zlg",
@@ -34,7 +34,20 @@ def metadata():
         "Requires-Python": ">=3.11",
         "Requires-Dist": "numpy",
     }
-    return "".join(f"{key}: {value}\n" for key, value in head.items())
+    lines = [*head.items(), *(("Requires-External", name) for name in packages)]
+    return "".join(f"{key}: {value}\n" for key, value in lines)
+
+
+def packages_of(module):
+    """The packages of Debian with the shared libraries that the module names; none on another system."""
+    if not all(map(shutil.which, ("dpkg", "ldd", "readelf"))):
+        return []
+    said = lambda *command: subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    named = set(re.findall(r"\(NEEDED\).*\[(.+)\]", said("readelf", "-d", module)))
+    files = [os.path.realpath(path) for name, path in re.findall(r"(\S+) => (\S+)", said("ldd", module)) if name in named]
+    # Where /lib is /usr/lib a package may own the file by either name.
+    owned = said("dpkg", "-S", *files, *(path.removeprefix("/usr") for path in files))
+    return sorted({line.partition(":")[0] for line in owned.splitlines()})
 
 
 def tag():
@@ -79,7 +92,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         raise SystemExit(f"{package} holds no _zlg{suffix}; the build folder is of another Python")
     info = f"zlg-{version()}.dist-info"
     contents = {f"zlg/{path.name}": path.read_bytes() for path in kept}
-    contents[f"{info}/METADATA"] = metadata().encode()
+    contents[f"{info}/METADATA"] = metadata(packages_of(package / f"_zlg{suffix}")).encode()
     contents[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     wheel = f"Wheel-Version: 1.0\nGenerator: zlg\nRoot-Is-Purelib: false\nTag: {tag()}\n"
     contents[f"{info}/WHEEL"] = wheel.encode()

@@ -9,7 +9,15 @@ Long calls release the interpreter. `run`, `simulate`, `compensate`, `calibrate`
 take `progress`, a function of the fraction done, and end on Ctrl-C, as `follow` does; a deviation, a fit and `design_gyro` go on to their end.
 """
 
-from . import _zlg, acceptance, analysis, calibration, config, core, design, line, logs, rig, study, sweeps, twin
+try:
+    from . import _zlg
+except ImportError as error:
+    from importlib.metadata import distributions
+    needed = {name for wheel in distributions(name="zlg") for name in wheel.metadata.get_all("Requires-External", [])}
+    if not needed:
+        raise
+    raise ImportError(f"{error}; of Debian the wheel needs: apt install {' '.join(sorted(needed))}") from error
+from . import acceptance, analysis, calibration, config, core, design, line, logs, rig, study, sweeps, twin
 from ._zlg import ConfigError, DesignError, Error, FormatError, IoError, MappingError, SeriesError
 from .acceptance import Acceptance, accept
 from .calibration import Calibration, calibrate

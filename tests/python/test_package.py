@@ -77,6 +77,11 @@ def test_the_wheel_holds_all_that_is_needed(tmp_path):
     program = "import zlg, sys; print(zlg.__file__, len(zlg.simulate(zlg.Config.of('run.duration_s=1')).raw))"
     result = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
     assert result.stdout.split() == [str(tmp_path / "site" / "zlg" / "__init__.py"), "400"]
+    # Where a library is missing, the import says which packages bring them all.
+    module.write_bytes(b"")
+    result = subprocess.run([sys.executable, "-c", "import zlg"], env=environment, capture_output=True, text=True, check=False)
+    assert result.returncode == 1
+    assert re.search(r"^ImportError: .*_zlg.*; of Debian the wheel needs: apt install .*\blibhdf5-\S+ .*\bzlib1g$", result.stderr, re.M), result.stderr
 
 
 @pytest.fixture

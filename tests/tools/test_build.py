@@ -28,10 +28,17 @@ class Configuration(unittest.TestCase):
 
 
 class Version(unittest.TestCase):
-    def test_a_citation_names_the_version_that_is_built(self):
-        built = re.search(r"project\(zlg VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
-        cited = re.search(r"^version: (.*)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.M).group(1)
-        self.assertEqual(cited, built)
+    def test_every_place_names_the_version_that_is_built(self):
+        read = lambda name: (ROOT / name).read_text(encoding="utf-8")
+        built = re.search(r"project\(zlg VERSION ([0-9.]+)", read("CMakeLists.txt"))[1]
+        cited = re.search(r"^version: (\S+)\ndate-released: (\S+)$", read("CITATION.cff"), re.M)
+        # A section of what is not released yet may stand above.
+        released = re.search(r"^## ([0-9.]+) \((\d{4}-\d\d-\d\d)\)$", read("CHANGELOG.md"), re.M)
+        self.assertEqual(cited.groups(), released.groups())
+        self.assertEqual(cited[1], built)
+        asked = re.findall(r"find_package\(zlg (\S+)", "".join(read(name) for name in (
+            "docs/installing.md", "examples/embed_core/CMakeLists.txt", "examples/own_gyro/CMakeLists.txt")))
+        self.assertEqual(asked, 3 * [built.rpartition(".")[0]])
 
 
 class Workflows(unittest.TestCase):
