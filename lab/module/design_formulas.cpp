@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include <zlg/config/schema.hpp>
 #include <zlg/core/compensation/polynomial_fit.hpp>
 #include <zlg/design/drift_budget.hpp>
 #include <zlg/design/error.hpp>
@@ -23,6 +24,8 @@ double number(const Work& work) {
         return work();
     } catch (const design::DesignError&) {
         return std::numeric_limits<double>::quiet_NaN();
+    } catch (const config::ConfigError&) {  // a field or a profile, which no closed form knows
+        return std::numeric_limits<double>::quiet_NaN();
     }
 }
 
@@ -30,9 +33,9 @@ double number(const Work& work) {
 
 double drift_arcsec_s(const config::Config& config, Budget budget, double interval_s, double run_s,
                       double switch_error_arcsec) {
-    const design::DriftCase task{study::gyro_drift(config), switch_error_arcsec, run_s};
     const design::FirstSegment first = config.switching.first_segment;
     return number([&] {
+        const design::DriftCase task{study::gyro_drift(config), switch_error_arcsec, run_s};
         if (budget == Budget::as_printed) return design::terms_as_printed(task, interval_s).total_arcsec_s();
         return budget == Budget::worst_case ? design::worst_case_drift_arcsec_s(task, interval_s, first)
                                             : design::expected_drift_arcsec_s(task, interval_s, first);
@@ -40,8 +43,8 @@ double drift_arcsec_s(const config::Config& config, Budget budget, double interv
 }
 
 double interval_s(const config::Config& config, IntervalLaw law, double run_s, double switch_error_arcsec) {
-    const design::DriftCase task{study::gyro_drift(config), switch_error_arcsec, run_s};
     return number([&] {
+        const design::DriftCase task{study::gyro_drift(config), switch_error_arcsec, run_s};
         return law == IntervalLaw::closed_form
                    ? design::closed_form_interval_s(task)
                    : design::expected_optimum(task, config.switching.first_segment).interval_s;

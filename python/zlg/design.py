@@ -113,8 +113,10 @@ class Choice(Shown):
     budget: dict[str, Any]
     binding: str
     would_need: list[dict[str, Any]]
-    #: the first gyros of the proof, every half lived: how many, how many meet it, rms of their errors
-    lived: dict[str, float]
+    #: candidates that were proved, each on gyros of its own
+    proofs: int
+    #: the first gyros of the proof, simulated half by half: how many, how many meet it, rms of their errors
+    simulated: dict[str, float]
     #: what `zlg run` and `Config.loads` take
     toml: str
     #: HTML

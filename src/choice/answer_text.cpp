@@ -31,12 +31,6 @@ json choice_json(const Requirement& r, const Candidate& candidate) {
     return choice;
 }
 
-json need_json(const Need& need) {
-    return {{"keys", need.keys},        {"from", need.from},   {"to", need.is_enough ? json(need.to) : json(nullptr)},
-            {"enough", need.is_enough}, {"share", need.share}, {"gyros", need.tried},
-            {"sentence", need.sentence}};
-}
-
 }  // namespace
 
 std::string json_text(const Requirement& requirement, const Answer& a) {
@@ -44,7 +38,14 @@ std::string json_text(const Requirement& requirement, const Answer& a) {
     for (const auto& [name, value] : a.budget) budget[name] = number_json(value);
     for (const Part& part : a.parts) budget["parts_rms_arcsec"][part.name] = number_json(part.rms_arcsec);
     json needs = json::array();
-    for (const Need& need : a.would_need) needs.push_back(need_json(need));
+    for (const Need& n : a.would_need)
+        needs.push_back({{"keys", n.keys},
+                         {"from", n.from},
+                         {"to", n.is_enough ? json(n.to) : json(nullptr)},
+                         {"enough", n.is_enough},
+                         {"share", n.share},
+                         {"gyros", n.tried},
+                         {"sentence", n.sentence}});
     json j{{"met", a.met},
            {"interrupted", a.is_interrupted},
            {"probability", a.probability},
@@ -60,7 +61,11 @@ std::string json_text(const Requirement& requirement, const Answer& a) {
            {"budget", std::move(budget)},
            {"binding", a.binding},
            {"would_need", std::move(needs)},
-           {"lived", {{"gyros", a.lived}, {"met", a.lived_met}, {"rms_arcsec", a.lived_rms_arcsec}}}};
+           {"proofs", a.proofs},
+           {"simulated",
+            {{"gyros", a.simulated.trials.size()},
+             {"met", a.simulated.met(requirement.limit_arcsec())},
+             {"rms_arcsec", a.simulated.rms_arcsec()}}}};
     if (a.runner_up)
         j["runner_up"] = {{"choice", choice_json(requirement, a.runner_up->candidate)},
                           {"probability", a.runner_up->share(requirement.limit_arcsec())},

@@ -13,7 +13,6 @@
 #include <zlg/report/number_text.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/switch_trial.hpp>
-#include <zlg/text/toml_text.hpp>
 
 namespace zlg::choice {
 namespace {
@@ -171,14 +170,15 @@ std::vector<Candidate> candidates(const Requirement& requirement, const Method& 
     return all;
 }
 
+void keep_with_tick(config::Config& gyro, double factor) {
+    gyro.switching.gap_ticks = std::clamp(static_cast<int>(std::ceil(gyro.switching.gap_ticks / factor - 1e-9)), 1, 40);
+    gyro.drift.random_walk_arcsec_sqrt_s /= std::sqrt(factor);
+}
+
 config::Config with(config::Config gyro, const Candidate& c) {
     const Method& m = c.method;
     if (m.tick_s != gyro.gyro.tick_s) {
-        // A gap lasts as long as before; the walk is that of lock-in, which goes with 1/sqrt(T).
-        const double ratio = gyro.gyro.tick_s / m.tick_s;
-        gyro.switching.gap_ticks =
-            std::clamp(static_cast<int>(std::ceil(gyro.switching.gap_ticks * ratio - 1e-9)), 1, 40);
-        gyro.drift.random_walk_arcsec_sqrt_s *= std::sqrt(ratio);
+        keep_with_tick(gyro, m.tick_s / gyro.gyro.tick_s);
         gyro.gyro.tick_s = m.tick_s;
     }
     if (m.reading == Reading::x4 && gyro.laser.quadrature != twin::Quadrature::x4) {
@@ -203,28 +203,13 @@ config::Config with(config::Config gyro, const Candidate& c) {
 }
 
 std::vector<std::pair<std::string, std::string>> chosen_keys(const config::Config& gyro, const Candidate& c) {
-    static const std::set<std::string> decided{"gyro.tick_s",
-                                               "gyro.readout",
-                                               "gyro.scale_arcsec",
-                                               "gyro.bias_hz",
-                                               "laser.quadrature",
-                                               "perimeter.loop",
-                                               "perimeter.tau_s",
-                                               "perimeter.limit_lambda",
-                                               "switching.interval_s",
-                                               "switching.schedule",
-                                               "switching.first_segment",
-                                               "switching.gap_ticks",
-                                               "compensation.relock",
-                                               "compensation.bridge",
-                                               "compensation.magnetic",
-                                               "compensation.relock_ticks",
-                                               "drift.random_walk_arcsec_sqrt_s"};
-    std::vector<std::pair<std::string, std::string>> keys;
-    const bool is_measured = c.method.schedule == config::Schedule::measured;
-    for (const auto& [key, value] : config::to_settings(with(gyro, c)))
-        if (decided.contains(key) || (is_measured && key.starts_with("switching.interval_m")))
-            keys.emplace_back(key, value);
+    constexpr std::array decided{"switching.",         "compensation.",  "gyro.tick_s",      "gyro.readout",
+                                 "gyro.scale_arcsec",  "gyro.bias_hz",   "laser.quadrature", "perimeter.loop",
+                                 "drift.random_walk_", "perimeter.tau_", "perimeter.limit_"};
+    std::vector<std::pair<std::string, std::string>> keys = config::to_settings(with(gyro, c));
+    std::erase_if(keys, [&](const auto& key) {
+        return std::ranges::none_of(decided, [&](const char* begin) { return key.first.starts_with(begin); });
+    });
     return keys;
 }
 

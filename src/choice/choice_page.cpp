@@ -8,7 +8,6 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/report/number_text.hpp>
 #include <zlg/study/gyro_drift.hpp>
-#include <zlg/study/how_made.hpp>
 
 #include "forecast.hpp"
 
@@ -99,12 +98,7 @@ report::Table budget_table(const Answer& a) {
                         "that a switch of this gyro leaves.",
                     .header = {"quantity", "value"}};
     for (const auto& [name, value] : a.budget) t.rows.push_back(row(name, value));
-    return t;
-}
-
-report::Table part_table(const Answer& a) {
-    report::Table t{.caption = "Parts of the error at the end, rms over the gyros.", .header = {"part", "arcsec rms"}};
-    for (const Part& part : a.parts) t.rows.push_back(row(part.name, part.rms_arcsec));
+    for (const Part& part : a.parts) t.rows.push_back(row(part.name + ", arcsec rms at the end", part.rms_arcsec));
     return t;
 }
 
@@ -123,12 +117,6 @@ std::string model_sentence(const Requirement& r) {
         given.empty() ? "no constant that decides" : given, presumed.empty() ? "none" : presumed);
 }
 
-std::vector<std::string> need_sentences(const Answer& a) {
-    std::vector<std::string> all;
-    for (const Need& need : a.would_need) all.push_back(need.sentence);
-    return all;
-}
-
 }  // namespace
 
 std::string verdict(const Requirement& r, const Answer& a) {
@@ -143,8 +131,10 @@ std::string verdict(const Requirement& r, const Answer& a) {
         return fmt::format("{} meets {} in {}, where {} is asked.", in_words(a.proof.candidate), demand, share_text(a),
                            r.confidence);
     return fmt::format(
-        "Nothing meets {}: {} does in {}, where {} is asked. That share keeps {} arcsec. What binds: {}.", demand,
-        in_words(a.proof.candidate), share_text(a), r.confidence, short_number(a.least_arcsec), a.binding);
+        "Nothing meets {}: {} does in {}{}, where {} is asked. That share keeps {} arcsec. What binds: {}.", demand,
+        in_words(a.proof.candidate), share_text(a),
+        a.probability < r.confidence ? "" : ", as long as false angles cancel in pairs", r.confidence,
+        short_number(a.least_arcsec), a.binding);
 }
 
 report::Page choice_page(const Requirement& r, const Answer& a) {
@@ -154,20 +144,23 @@ report::Page choice_page(const Requirement& r, const Answer& a) {
                           "Interval, correction, reading and schedule, chosen by closed forms and trials, proved on "
                           "gyros that were not used to choose."};
     std::vector<std::string> reasons = a.reasons;
-    if (a.lived > 0)
-        reasons.push_back(
-            fmt::format("Of the first {} gyros of the proof, with every half lived, {} meet it; their "
-                        "errors are {} arcsec rms, those of the proof {}.",
-                        a.lived, a.lived_met, short_number(a.lived_rms_arcsec), short_number(a.proved_rms_arcsec)));
+    if (!a.simulated.trials.empty())
+        reasons.push_back(fmt::format(
+            "Of the first {} gyros of the proof, simulated half by half, {} meet it; their errors are {} arcsec rms, "
+            "those of the proof {}.",
+            a.simulated.trials.size(), a.simulated.met(r.limit_arcsec()), short_number(a.simulated.rms_arcsec()),
+            short_number(a.proof.rms_arcsec())));
     page.sections.push_back({.heading = "Choice", .paragraphs = std::move(reasons), .tables = {choice_table(r, a)}});
-    if (!a.would_need.empty())
-        page.sections.push_back({.heading = "What would have to change", .paragraphs = need_sentences(a)});
+    std::vector<std::string> needs;
+    for (const Need& need : a.would_need) needs.push_back(need.sentence);
+    if (!needs.empty())
+        page.sections.push_back({.heading = "What would have to change", .paragraphs = std::move(needs)});
     page.sections.push_back({.heading = "Proof",
                              .paragraphs = {model_sentence(r)},
                              .figures = {interval_figure(r, a), probability_figure(r, a)}});
     page.sections.push_back({.heading = "Budget",
                              .paragraphs = {"What binds: " + a.binding + "."},
-                             .tables = {part_table(a), budget_table(a)},
+                             .tables = {budget_table(a)},
                              .figures = {budget_figure(a)}});
     page.sections.push_back({.heading = "Configuration",
                              .paragraphs = {"Saved as chosen.toml, these lines are what zlg run chosen.toml takes."},

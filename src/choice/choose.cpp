@@ -20,21 +20,6 @@ constexpr double refuted_sigmas = 3.0;
 constexpr std::size_t n_best = 4;  // of those that meet nothing, tried for the least error
 constexpr std::int64_t best_gyros = 32;
 
-// Gyros that no choice has seen.
-std::uint64_t fresh_seed(std::uint64_t seed, std::uint64_t attempt) {
-    return chance::Draw{seed, chance::Cause::sweep_seed, attempt, chance::thing_of("proof")}.bits();
-}
-
-double square_mean(const std::vector<Trial>& trials, std::size_t n) {
-    double sum = 0.0, count = 0.0;
-    for (std::size_t k = 0; k < std::min(n, trials.size()); ++k) {
-        if (trials[k].state != TrialState::good) continue;
-        sum += trials[k].error_arcsec * trials[k].error_arcsec;
-        count += 1.0;
-    }
-    return count > 0.0 ? sum / count : 0.0;
-}
-
 // The error that this share of the gyros keeps; infinite where too many are lost.
 double kept_error_arcsec(const Evaluation& e, double share) {
     std::vector<double> errors;
@@ -56,20 +41,19 @@ public:
           forecast_{common_, task.threads, task.is_stopped},
           search_{task_, forecast_, common_},
           answer_{answer} {
+        std::vector<std::string> why = search_.all().excluded;
+        if (why.empty()) why.emplace_back("no method delivers final values within delay_s");
         if (search_.all().all.empty())
-            throw config::ConfigError{fmt::format("[require] leaves nothing to choose from{}{}",
-                                                  search_.all().excluded.empty() ? ": no method delivers final values "
-                                                                                   "within delay_s"
-                                                                                 : ": ",
-                                                  fmt::join(search_.all().excluded, " "))};
+            throw config::ConfigError{fmt::format("[require] leaves nothing to choose from: {}", fmt::join(why, " "))};
     }
 
     void run() {
         const bool is_possible = !most_are_impossible();
-        const bool is_met = is_possible && prove_one();
-        if (is_possible && !is_met) prove_the_best();
+        const bool is_met = is_possible && (prove_one() || prove_the_best());
         settle();
         answer_.met = is_met;
+        if (is_possible && !is_met && answer_.probability >= r_.confidence)
+            answer_.least_arcsec += false_angle_arcsec(answer_.proof.candidate);
         if (is_possible) confirm();
         if (is_met)
             answer_.runner_up = search_.runner_up(answer_.proof.candidate.method);
@@ -105,7 +89,7 @@ private:
     }
 
     bool prove(const Candidate& candidate, double sigmas) {
-        const Population fresh{r_, fresh_seed(r_.base.run.seed, ++attempts_), r_.gyros};
+        const Population fresh{r_, proof_seed(r_.base.run.seed, ++answer_.proofs), r_.gyros};
         answer_.proof = {candidate, {}};
         const Tester tester{task_, fresh};
         return tester.extend(answer_.proof, r_.gyros, sigmas, [&] {
@@ -115,7 +99,7 @@ private:
 
     // Half of the gyros or more are none by the tolerances, whatever is chosen: nothing is tried then.
     bool most_are_impossible() {
-        const Population fresh{r_, fresh_seed(r_.base.run.seed, 1), r_.gyros};
+        const Population fresh{r_, proof_seed(r_.base.run.seed, 1), r_.gyros};
         const Candidate any = candidates(r_, search_.all().all.front()).front();
         Evaluation drawn{any, {}};
         for (std::int64_t k = 0; k < r_.gyros; ++k) {
@@ -138,8 +122,11 @@ private:
         return false;
     }
 
-    // Of those with the least error by the closed forms, the one with the least on common gyros.
-    void prove_the_best() {
+    double false_angle_arcsec(const Candidate& c) { return std::sqrt(forecast_.parts(c).alternating); }
+
+    // Of those with the least error by the closed forms, the one with the least on common gyros. Closed forms may have
+    // discarded what meets it; what only an even number of false angles lets meet it does not.
+    bool prove_the_best() {
         const Tester tester{task_, common_};
         std::optional<Candidate> best;
         double least = std::numeric_limits<double>::infinity();
@@ -153,23 +140,21 @@ private:
             least = kept;
         }
         prove(*best, std::numeric_limits<double>::infinity());
+        return answer_.proof.share(limit_) >= r_.confidence && false_angle_arcsec(*best) <= limit_;
     }
 
-    // The first gyros of the proof again, lived half by half.
+    // The first gyros of the proof again, simulated half by half.
     void confirm() {
         if (fidelity_of(r_) == config::Fidelity::averaged) return;
         const double halves = 2.0 * r_.run_s / answer_.gyro.gyro.tick_s;
         const auto n = std::min(r_.gyros, static_cast<std::int64_t>(std::clamp(8e6 / halves, 2.0, 32.0)));
-        const Population same{r_, fresh_seed(r_.base.run.seed, attempts_), r_.gyros};
-        std::vector<Trial> lived(static_cast<std::size_t>(n));
-        numeric::in_parallel(lived.size(), task_.threads, [&](std::size_t k) {
-            lived[k] = same.run(static_cast<std::int64_t>(k), answer_.proof.candidate, config::Fidelity::averaged,
-                                task_.is_stopped);
+        const Population same{r_, proof_seed(r_.base.run.seed, answer_.proofs), r_.gyros};
+        std::vector<Trial> simulated(static_cast<std::size_t>(n));
+        numeric::in_parallel(simulated.size(), task_.threads, [&](std::size_t k) {
+            simulated[k] = same.run(static_cast<std::int64_t>(k), answer_.proof.candidate, config::Fidelity::averaged,
+                                    task_.is_stopped);
         });
-        answer_.lived = n;
-        answer_.lived_met = Evaluation{answer_.proof.candidate, lived}.met(limit_);
-        answer_.lived_rms_arcsec = std::sqrt(square_mean(lived, lived.size()));
-        answer_.proved_rms_arcsec = std::sqrt(square_mean(answer_.proof.trials, answer_.proof.trials.size()));
+        answer_.simulated = {answer_.proof.candidate, std::move(simulated)};
     }
 
     const Task& task_;
@@ -180,10 +165,13 @@ private:
     Answer& answer_;
     double limit_ = r_.limit_arcsec();
     double searched_ = 0.0;
-    std::uint64_t attempts_ = 0;
 };
 
 }  // namespace
+
+std::uint64_t proof_seed(std::uint64_t seed, std::uint64_t proof) {
+    return chance::Draw{seed, chance::Cause::sweep_seed, proof, chance::thing_of("proof")}.bits();
+}
 
 Answer choose(const Task& task) {
     Answer answer;

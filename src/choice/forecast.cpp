@@ -17,7 +17,9 @@ namespace {
 constexpr std::size_t n_tried = 4;    // gyros whose switches are tried
 constexpr std::int64_t n_gyros = 64;  // whose drift is reckoned
 constexpr int n_switches = 24;        // of a trial
+constexpr int least_switches = 4;
 constexpr double least_interval_s = 2.5;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // P(|x| <= limit) of N(mean, variance).
 double share_within(double limit, double mean, double variance) {
@@ -30,11 +32,11 @@ bool leaves_unknown(const Method& m) {
     return m.magnetic == core::MagneticMethod::estimate || m.schedule == config::Schedule::measured;
 }
 
+}  // namespace
+
 double first_switch_s(const Candidate& c) {
     return c.first_segment == config::FirstSegment::half ? 0.5 * c.interval_s : c.interval_s;
 }
-
-}  // namespace
 
 std::int64_t switches_until(double run_s, const Candidate& c) {
     const double after_first = (run_s - first_switch_s(c)) / c.interval_s;
@@ -63,19 +65,21 @@ SwitchLaw Forecast::learnt(std::int64_t number, const Method& method) const {
         gyro.switching.schedule = config::Schedule::fixed;
         gyro.switching.interval_s = 1.07 * std::max(least_interval_s, 2.0 * study::shortest_interval_s(gyro));
         gyro.gyro.fidelity = config::Fidelity::averaged;
-        const double available_s = std::min(population_.requirement().run_s, recorded::motion(gyro).duration_s());
+        const double available_s = recorded::motion(gyro).duration_s();
+        // Of a motion file too short for it nothing is known: only trials discard.
+        if (available_s < (least_switches + 0.5) * gyro.switching.interval_s) return {};
         gyro.run.duration_s = std::min((n_switches + 0.5) * gyro.switching.interval_s, available_s);
         const Trial trial = try_gyro(population_.requirement(), gyro, is_stopped_);
         const auto n = static_cast<double>(trial.switches);
-        if (trial.state != TrialState::good || trial.switches < 4) return {};
+        if (trial.state != TrialState::good || trial.switches < least_switches) return {infinite};
         // The walk of the ticks of a switch is in the walk of the run; n - 1 for the mean.
         const double walk = gyro.drift.random_walk_arcsec_sqrt_s;
         const double window_s = (gyro.switching.gap_ticks + gyro.compensation.relock_ticks) * gyro.gyro.tick_s;
         const double square =
             trial.switch_rms_arcsec * trial.switch_rms_arcsec * n / (n - 1.0) - walk * walk * window_s;
-        return {true, std::sqrt(std::max(square, 0.0)), trial.alternating_arcsec};
+        return {std::sqrt(std::max(square, 0.0)), trial.alternating_arcsec};
     } catch (const config::ConfigError&) {
-        return {};
+        return {infinite};
     }
 }
 
@@ -107,50 +111,49 @@ const std::vector<Forecast::Gyro>& Forecast::gyros(const Method& method) {
 Parts Forecast::parts_of(const Gyro& gyro, const SwitchLaw& law, const Candidate& c) const {
     const double run_s = population_.requirement().run_s;
     const std::int64_t m = switches_until(run_s, c);
-    const double alternating = m % 2 == 1 ? law.alternating_arcsec : 0.0;
     const double magnetic = leaves_unknown(c.method) ? 0.0 : magnetic_angle_arcsec(gyro.drift, run_s, c);
     return {.magnetic = magnetic * magnetic,
-            .switches = static_cast<double>(m) * law.rms_arcsec * law.rms_arcsec + alternating * alternating,
+            .switches = m == 0 ? 0.0 : static_cast<double>(m) * law.rms_arcsec * law.rms_arcsec,
+            .alternating = m == 0 ? 0.0 : law.alternating_arcsec * law.alternating_arcsec,
             .walk = gyro.walk_arcsec_sqrt_s * gyro.walk_arcsec_sqrt_s * run_s,
             .rounding = gyro.count_arcsec * gyro.count_arcsec / 6.0};
 }
 
-double Forecast::chance(const Candidate& candidate, double rms_ratio) {
-    const std::vector<SwitchLaw>& all = laws(candidate.method);
+std::vector<Parts> Forecast::all_parts(const Candidate& candidate) {
+    static const std::vector<SwitchLaw> none(1);
+    const bool has_switches = switches_until(population_.requirement().run_s, candidate) > 0;
+    const std::vector<SwitchLaw>& all = has_switches ? laws(candidate.method) : none;
     const std::vector<Gyro>& drawn = gyros(candidate.method);
+    std::vector<Parts> parts(drawn.empty() ? 0 : std::max(all.size(), drawn.size()));
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        parts[k] = parts_of(drawn[k % drawn.size()], all[k % all.size()], candidate);
+    return parts;
+}
+
+double Forecast::chance(const Candidate& candidate, double rms_ratio) {
     const double limit = population_.requirement().limit_arcsec();
+    const std::vector<Parts> all = all_parts(candidate);
     double sum = 0.0;
-    for (std::size_t k = 0; k < std::max(all.size(), drawn.size()) && !drawn.empty(); ++k) {
-        const SwitchLaw& law = all[k % all.size()];
-        if (!law.works) continue;
-        Parts parts = parts_of(drawn[k % drawn.size()], law, candidate);
-        sum += share_within(limit, std::sqrt(parts.magnetic),
-                            parts.switches * rms_ratio * rms_ratio + parts.walk + parts.rounding);
-    }
-    return sum / static_cast<double>(std::max({all.size(), drawn.size(), std::size_t{1}}));
+    for (const Parts& p : all)
+        sum += share_within(limit, std::sqrt(p.magnetic) + std::sqrt(p.alternating),
+                            p.switches * rms_ratio * rms_ratio + p.walk + p.rounding);
+    return all.empty() ? 0.0 : sum / static_cast<double>(all.size());
 }
 
 Parts Forecast::parts(const Candidate& candidate) {
-    const std::vector<SwitchLaw>& all = laws(candidate.method);
-    const std::vector<Gyro>& drawn = gyros(candidate.method);
+    const std::vector<Parts> all = all_parts(candidate);
     Parts mean;
-    const std::size_t n = std::max(all.size(), drawn.size());
-    for (std::size_t k = 0; k < n && !drawn.empty(); ++k) {
-        Parts one = parts_of(drawn[k % drawn.size()], all[k % all.size()], candidate);
-        if (!all[k % all.size()].works) one.switches = std::numeric_limits<double>::infinity();
-        const double share = 1.0 / static_cast<double>(n);
-        mean.magnetic += share * one.magnetic;
-        mean.switches += share * one.switches;
-        mean.walk += share * one.walk;
-        mean.rounding += share * one.rounding;
-    }
+    for (const Parts& one : all)
+        for (double Parts::*part :
+             {&Parts::magnetic, &Parts::switches, &Parts::alternating, &Parts::walk, &Parts::rounding})
+            mean.*part += one.*part / static_cast<double>(all.size());
     return mean;
 }
 
 double Forecast::switch_rms_arcsec(const Method& method) {
     double sum = 0.0, n = 0.0;
     for (const SwitchLaw& law : laws(method)) {
-        if (!law.works) continue;
+        if (!std::isfinite(law.rms_arcsec)) continue;
         sum += law.rms_arcsec * law.rms_arcsec;
         n += 1.0;
     }

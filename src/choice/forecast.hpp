@@ -1,12 +1,13 @@
 #pragma once
 // What the closed forms say of a candidate before it is tried: they rank and discard.
 //
-//   error at the end = M + a [m odd] + N(0, m s^2 + W^2 t + K^2/6)
+//   error at the end = M + a + N(0, m s^2 + W^2 t + K^2/6)
 //
 // with M the angle that the alternating magnetic drift leaves (exact), m the switches of the run, s the rms and a the
-// alternating mean of their errors by a short trial, W the random walk, K the worth of a count. What a schedule that
-// measures and the estimate of the magnetic drift leave of M no closed form says: it is taken for nothing, so that
-// only trials discard them.
+// alternating mean of their errors by a short trial, W the random walk, K the worth of a count. The false angle a is
+// there after every odd switch and taken back by the next: a run that ends half an interval sooner or later ends with
+// it, so that it counts after an even number of switches too. What a schedule that measures and the estimate of the
+// magnetic drift leave of M no closed form says: it is taken for nothing, so that only trials discard them.
 
 #include <map>
 #include <tuple>
@@ -21,17 +22,19 @@ namespace zlg::choice {
 struct Parts {
     double magnetic = 0.0;
     double switches = 0.0;
+    double alternating = 0.0;
     double walk = 0.0;
     double rounding = 0.0;
 
-    [[nodiscard]] double sum() const { return magnetic + switches + walk + rounding; }
+    [[nodiscard]] double sum() const { return magnetic + switches + alternating + walk + rounding; }
 };
 
 struct SwitchLaw {
-    bool works = false;  // a fair part of the switches was made
-    double rms_arcsec = 0.0;
+    double rms_arcsec = 0.0;  // infinite where no fair part of the switches was made
     double alternating_arcsec = 0.0;
 };
+
+[[nodiscard]] double first_switch_s(const Candidate& candidate);
 
 // Switches before the end of the run.
 [[nodiscard]] std::int64_t switches_until(double run_s, const Candidate& candidate);
@@ -62,6 +65,8 @@ private:
     };
     using Key = std::tuple<core::RelockMethod, core::BridgeMethod, Reading, double>;
 
+    // Of each gyro and law that go together.
+    [[nodiscard]] std::vector<Parts> all_parts(const Candidate& candidate);
     const std::vector<SwitchLaw>& laws(const Method& method);
     [[nodiscard]] SwitchLaw learnt(std::int64_t number, const Method& method) const;
     [[nodiscard]] Parts parts_of(const Gyro& gyro, const SwitchLaw& law, const Candidate& candidate) const;

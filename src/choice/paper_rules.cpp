@@ -1,6 +1,5 @@
 #include <zlg/choice/paper_rules.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +8,8 @@
 #include <zlg/design/switching_interval.hpp>
 #include <zlg/report/number_text.hpp>
 #include <zlg/study/design_study.hpp>
+
+#include "verdict.hpp"
 
 namespace zlg::choice {
 namespace {
@@ -49,17 +50,9 @@ Answer by_paper_rules(const Requirement& r) {
                {"sawtooth", r.run_s * terms.sawtooth_arcsec_s},
                {"switch errors", r.run_s * terms.switch_errors_arcsec_s},
                {"all", a.least_arcsec}};
-    a.binding = std::max_element(a.parts.begin(), a.parts.end() - 1, [](const Part& x, const Part& y) {
-                    return x.rms_arcsec < y.rms_arcsec;
-                })->name;
-    a.budget = {{"switch_error_arcsec", task.switch_error_arcsec},
-                {"bound_3_arcsec_s", design::drift_bound_arcsec_s(task, interval_s)},
-                {"magnetic_at_end_5_arcsec_s", design::magnetic_rate_arcsec_s(task.gyro, r.run_s)},
-                {"quasi_nonmagnetic_4_6_arcsec_s", terms.quasi_nonmagnetic_arcsec_s},
-                {"nonmagnetic_7_arcsec_s", terms.nonmagnetic_arcsec_s},
-                {"sawtooth_7_arcsec_s", terms.sawtooth_arcsec_s},
-                {"switch_errors_7_arcsec_s", terms.switch_errors_arcsec_s},
-                {"total_7_arcsec_s", terms.total_arcsec_s()}};
+    a.binding = largest(a.parts);
+    a.budget = budget_7(task, interval_s, terms);
+    a.budget.insert(a.budget.begin(), {"switch_error_arcsec", task.switch_error_arcsec});
     a.reasons = {fmt::format("Interval {:.1f} s: the least of (7) as printed for a run of {} s, a switch leaving {} "
                              "arcsec, all of one sign.",
                              interval_s, short_number(r.run_s), short_number(task.switch_error_arcsec)),
@@ -79,13 +72,8 @@ report::Page paper_rules_page(const Requirement& r, const Answer& a) {
     report::Table budget{.caption = "The budget, with the numbers of the equations in the names.",
                          .header = {"quantity", "value"}};
     for (const auto& [name, value] : a.budget) budget.rows.push_back(row(name, value));
-    report::Table intervals{.caption = "Best interval by length of run.", .header = {"run, s", "interval, s"}};
-    for (const double run_s : r.base.design.run_lengths_s)
-        intervals.rows.push_back(row(run_s, fixed_number(printed_interval_s(r.base, run_s), 1)));
-    page.sections.push_back({.heading = "Choice",
-                             .paragraphs = a.reasons,
-                             .tables = {std::move(budget), std::move(intervals)},
-                             .figures = {figure_5(r.base)}});
+    page.sections.push_back(
+        {.heading = "Choice", .paragraphs = a.reasons, .tables = {std::move(budget)}, .figures = {figure_5(r.base)}});
     return page;
 }
 

@@ -6,6 +6,8 @@
 
 #include <zlg/chance/draw.hpp>
 
+#include "forecast.hpp"
+
 namespace zlg::choice {
 
 twin::Motion with_ramps(const Requirement& requirement, const config::Config& gyro, twin::Motion base) {
@@ -15,8 +17,8 @@ twin::Motion with_ramps(const Requirement& requirement, const config::Config& gy
     const config::Switching& s = gyro.switching;
     const bool is_fixed = s.schedule == config::Schedule::fixed;
     const double run_s = gyro.run.duration_s.value_or(requirement.run_s);
-    const double first_s = s.first_segment == config::FirstSegment::half ? 0.5 * s.interval_s : s.interval_s;
-    const double begin_s = is_fixed ? first_s : draw.uniform();
+    const double begin_s =
+        is_fixed ? first_switch_s({.interval_s = s.interval_s, .first_segment = s.first_segment}) : draw.uniform();
     const double period_s = is_fixed ? s.interval_s : ramp_s;
     std::vector<twin::RateStep> steps;
     bool is_up = true;

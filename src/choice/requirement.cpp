@@ -10,6 +10,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/recorded/motion.hpp>
+#include <zlg/study/gyro_drift.hpp>
 #include <zlg/sweep/description_table.hpp>
 #include <zlg/text/inputs.hpp>
 #include <zlg/text/toml_text.hpp>
@@ -24,8 +25,9 @@ using config::ConfigError;
 using sweep::Table;
 
 // What is drawn is what the gyro is, not what is chosen for it.
-constexpr std::array chosen_sections{"switching.", "compensation.", "run.", "require."};
-constexpr std::array chosen_names{"gyro.tick_s", "gyro.readout", "gyro.fidelity", "laser.quadrature", "perimeter.loop"};
+constexpr std::array chosen_sections{"switching.", "compensation.", "run.", "require.", "field."};
+constexpr std::array chosen_names{"gyro.tick_s",      "gyro.readout",   "gyro.fidelity",
+                                  "laser.quadrature", "perimeter.loop", "temperature.profile"};
 
 bool is_chosen(const std::string& key) {
     return std::ranges::any_of(chosen_sections, [&](const char* section) { return key.starts_with(section); }) ||
@@ -139,6 +141,7 @@ void check_whole(const Requirement& r, std::string_view source_name) {
     if (r.run_s > available_s * (1.0 + 1e-12))
         refuse(fmt::format("run_s = {}: the motion file lasts {} s; allowed is up to that", r.run_s, available_s));
     refuse_fast_ramps(r, source_name);
+    (void)study::gyro_drift(r.base);
 }
 
 }  // namespace

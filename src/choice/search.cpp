@@ -28,6 +28,16 @@ double Evaluation::share(double limit_arcsec) const {
     return trials.empty() ? 0.0 : static_cast<double>(met(limit_arcsec)) / static_cast<double>(trials.size());
 }
 
+double Evaluation::rms_arcsec() const {
+    double sum = 0.0, n = 0.0;
+    for (const Trial& t : trials) {
+        if (t.state != TrialState::good) continue;
+        sum += t.error_arcsec * t.error_arcsec;
+        n += 1.0;
+    }
+    return n > 0.0 ? std::sqrt(sum / n) : 0.0;
+}
+
 double sigma_of_share(std::int64_t k, std::int64_t n) {
     const double a = static_cast<double>(k) + 1.0, b = static_cast<double>(n - k) + 1.0;
     return std::sqrt(a * b / (a + b + 1.0)) / (a + b);

@@ -7,6 +7,9 @@
 
 namespace zlg::choice {
 
+// Of the gyros of a proof, numbered from 1, that no other step has seen.
+[[nodiscard]] std::uint64_t proof_seed(std::uint64_t seed, std::uint64_t proof);
+
 // By which a gyro is tried: events, where the requirement does not ask for another.
 [[nodiscard]] config::Fidelity fidelity_of(const Requirement& requirement);
 

@@ -26,7 +26,6 @@ void add_switches(Trial& trial, const std::vector<study::SwitchError>& errors) {
     for (const study::SwitchError& e : errors) {
         if (e.unrepaired) continue;
         ++trial.switches;
-        trial.switches_arcsec += e.error_arcsec;
         alternating += e.window.sign_after * e.error_arcsec;
         sum_sq += e.error_arcsec * e.error_arcsec;
     }

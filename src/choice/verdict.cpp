@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/design/drift_budget.hpp>
 #include <zlg/report/number_text.hpp>
 #include <zlg/study/gyro_drift.hpp>
 
@@ -19,40 +18,33 @@ using report::short_number;
 std::vector<Part> parts_of(Forecast& forecast, const Answer& answer) {
     const Candidate& c = answer.proof.candidate;
     Parts parts = forecast.parts(c);
-    double square = 0.0, n = 0.0;
-    for (const Trial& t : answer.proof.trials) {
-        if (t.state != TrialState::good) continue;
-        square += t.error_arcsec * t.error_arcsec;
-        n += 1.0;
-    }
-    if (n > 0.0 &&
+    const double rms = answer.proof.rms_arcsec();
+    if (rms > 0.0 &&
         (c.method.magnetic == core::MagneticMethod::estimate || c.method.schedule == config::Schedule::measured))
-        parts.magnetic = std::max(0.0, square / n - parts.sum());
+        parts.magnetic = std::max(0.0, rms * rms - parts.sum());
     return {{"magnetic drift", std::sqrt(parts.magnetic)},
             {"switch errors", std::sqrt(parts.switches)},
+            {"false angle that the next switch takes back", std::sqrt(parts.alternating)},
             {"random walk", std::sqrt(parts.walk)},
             {"rounding of the counter", std::sqrt(parts.rounding)},
-            {"all, of the gyros of the proof", n > 0.0 ? std::sqrt(square / n) : 0.0}};
+            {"all, of the gyros of the proof", rms}};
 }
 
-std::vector<std::pair<std::string, double>> budget_of(const Requirement& r, Forecast& forecast, const Answer& answer) {
+Budget budget_of(const Requirement& r, Forecast& forecast, const Answer& answer) {
     const Candidate& c = answer.proof.candidate;
     const double rms = forecast.switch_rms_arcsec(c.method);
     const design::DriftCase task{
         .gyro = study::gyro_drift(answer.gyro), .switch_error_arcsec = std::max(rms, 1e-6), .run_s = r.run_s};
     const design::DriftTerms terms = design::corrected_terms(task, c.interval_s);
-    return {{"switches", static_cast<double>(switches_until(r.run_s, c))},
-            {"switch_error_rms_arcsec", rms},
-            {"bound_3_arcsec_s", design::drift_bound_arcsec_s(task, c.interval_s)},
-            {"switch_errors_independent_arcsec_s", design::independent_switch_drift_arcsec_s(task, c.interval_s)},
-            {"magnetic_at_end_5_arcsec_s", design::magnetic_rate_arcsec_s(task.gyro, r.run_s)},
-            {"quasi_nonmagnetic_4_6_arcsec_s", terms.quasi_nonmagnetic_arcsec_s},
-            {"nonmagnetic_7_arcsec_s", terms.nonmagnetic_arcsec_s},
-            {"sawtooth_7_arcsec_s", terms.sawtooth_arcsec_s},
-            {"switch_errors_7_arcsec_s", terms.switch_errors_arcsec_s},
-            {"total_7_arcsec_s", terms.total_arcsec_s()},
-            {"worst_end_arcsec", r.run_s * (design::worst_case_drift_arcsec_s(task, c.interval_s, c.first_segment) -
-                                            terms.nonmagnetic_arcsec_s)}};
+    Budget budget = budget_7(task, c.interval_s, terms);
+    budget.insert(budget.begin(), {{"switches", static_cast<double>(switches_until(r.run_s, c))},
+                                   {"switch_error_rms_arcsec", rms},
+                                   {"switch_errors_independent_arcsec_s",
+                                    design::independent_switch_drift_arcsec_s(task, c.interval_s)}});
+    const double worst_s = design::worst_case_drift_arcsec_s(task, c.interval_s, c.first_segment);
+    budget.emplace_back("worst_end_arcsec",
+                        r.run_s * (worst_s - terms.nonmagnetic_arcsec_s) + std::sqrt(forecast.parts(c).alternating));
+    return budget;
 }
 
 std::string binding_of(const Requirement& r, const Answer& answer) {
@@ -61,9 +53,7 @@ std::string binding_of(const Requirement& r, const Answer& answer) {
         static_cast<double>(answer.refused) > (1.0 - r.confidence) * n)
         return "tolerances that make no gyro";
     if (static_cast<double>(answer.lost) > (1.0 - r.confidence) * n) return "switches that fail";
-    return std::max_element(answer.parts.begin(), answer.parts.end() - 1,
-                            [](const Part& a, const Part& b) { return a.rms_arcsec < b.rms_arcsec; })
-        ->name;
+    return largest(answer.parts);
 }
 
 std::string share_text(const Requirement& r, const Evaluation& e) {
@@ -139,9 +129,16 @@ std::vector<std::string> reasons_of(const Requirement& r, const std::vector<std:
     all.push_back("The perimeter loop and its constants are the gyro's: it settles within the corrected ticks.");
     all.insert(all.end(), excluded.begin(), excluded.end());
     all.push_back(
-        fmt::format("All of this is of the angle after {} s; a run that ends within a segment ends with up to "
-                    "{} arcsec of the sawtooth and of switches of one sign.",
+        fmt::format("All of this is of the angle after {} s; a run that ends at another time ends with up to {} arcsec "
+                    "of the sawtooth, of the false angle that the next switch takes back and of switch errors of one "
+                    "sign.",
                     short_number(r.run_s), short_number(answer.budget.back().second)));
+    if (const double least = std::ceil(1.0 / (1.0 - r.confidence) - 1e-9); static_cast<double>(r.gyros) < least)
+        all.push_back(fmt::format("The proof has {} gyros; fewer than {:.0f} cannot tell a share of {}.", r.gyros,
+                                  least, r.confidence));
+    if (answer.proofs > 1)
+        all.push_back(fmt::format("{} candidates were proved in turn, each on gyros of its own; this is the last.",
+                                  answer.proofs));
     if (answer.runner_up) all.push_back(runner_up_reason(r, answer));
     if (answer.refused + answer.lost > 0)
         all.push_back(
@@ -152,6 +149,22 @@ std::vector<std::string> reasons_of(const Requirement& r, const std::vector<std:
 }
 
 }  // namespace
+
+Budget budget_7(const design::DriftCase& task, double interval_s, const design::DriftTerms& terms) {
+    return {{"bound_3_arcsec_s", design::drift_bound_arcsec_s(task, interval_s)},
+            {"magnetic_at_end_5_arcsec_s", design::magnetic_rate_arcsec_s(task.gyro, task.run_s)},
+            {"quasi_nonmagnetic_4_6_arcsec_s", terms.quasi_nonmagnetic_arcsec_s},
+            {"nonmagnetic_7_arcsec_s", terms.nonmagnetic_arcsec_s},
+            {"sawtooth_7_arcsec_s", terms.sawtooth_arcsec_s},
+            {"switch_errors_7_arcsec_s", terms.switch_errors_arcsec_s},
+            {"total_7_arcsec_s", terms.total_arcsec_s()}};
+}
+
+std::string largest(const std::vector<Part>& parts) {
+    return std::max_element(parts.begin(), parts.end() - 1,
+                            [](const Part& a, const Part& b) { return a.rms_arcsec < b.rms_arcsec; })
+        ->name;
+}
 
 void explain(const Requirement& requirement, Forecast& forecast, const std::vector<std::string>& excluded,
              Answer& answer) {

@@ -8,13 +8,13 @@
 #include <zlg/rig/switch_count.hpp>
 #include <zlg/twin/fault_kinds.hpp>
 
+#include "run_view.hpp"
+
 namespace zlg::study {
 namespace {
 
 // A mean of fewer errors says little.
 constexpr std::size_t few_switches = 10;
-
-double duration_s(const RunResult& result) { return static_cast<double>(result.ticks) * result.tick_s; }
 
 std::string number_of(std::size_t n, std::string_view what) {
     return n == 0 ? fmt::format("no {}", what) : fmt::format("{} {}{}", n, what, n == 1 ? "" : "es");

@@ -1,8 +1,9 @@
 #include <zlg/choice/choose.hpp>
 #include <zlg/config/schema.hpp>
 
-#include <numbers>
+#include <fmt/format.h>
 
+#include "search.hpp"
 #include "test.hpp"
 
 namespace zlg::choose_test {
@@ -67,7 +68,7 @@ TEST(Choose, nothing_simpler_meets_it_and_the_probability_holds_on_other_gyros) 
     EXPECT_GT(tried, 0u) << "a choice that is not the first of all";
 }
 
-TEST(Choose, what_cannot_be_met_names_the_least_that_can_and_what_would_have_to_change) {
+TEST(Choose, what_cannot_be_met_names_the_least_that_can) {
     // The random walk alone leaves 0.14 sqrt(40) = 0.89 arcsec.
     const Requirement r = required("angle_error_arcsec = 0.2\nconfidence = 0.9\n");
     const Answer a = chosen(r);
@@ -76,11 +77,93 @@ TEST(Choose, what_cannot_be_met_names_the_least_that_can_and_what_would_have_to_
     EXPECT_GT(a.least_arcsec, 0.89 * 1.2) << "the quantile 0.9 of a normal law, 1.64 sd, and chance";
     EXPECT_LT(a.least_arcsec, 8.0);
     EXPECT_FALSE(a.binding.empty());
+}
+
+// Without a magnetic drift and a switch the walk is most of the error: N(0, W^2 t).
+Requirement of_walk_alone(double limit_arcsec, int gyros) {
+    return parse_requirement(
+        fmt::format("[require]\nrun_s = 40\ngyros = {}\nconfidence = 0.9\nangle_error_arcsec = {}\n{}", gyros,
+                    limit_arcsec, small_gyro),
+        "r.toml",
+        {"gyro.fidelity=events", "switching.interval_s=40", "switching.first_segment=full",
+         "drift.magnetic_arcsec_s=0.001", "drift.magnetic_thermal_arcsec_s=0", "drift.random_walk_arcsec_sqrt_s=1.4"});
+}
+
+TEST(Choose, a_constant_would_have_to_change_in_the_direction_and_by_the_factor_that_the_walk_has) {
+    const Requirement r = of_walk_alone(7.0, 40);
+    const Answer a = chosen(r);
+    ASSERT_FALSE(a.met);
+    EXPECT_EQ(a.binding, "random walk");
+    // 0.9 of a normal law lie within 1.645 sd.
+    const double walk = 7.0 / (1.645 * std::sqrt(40.0));
     ASSERT_EQ(a.would_need.size(), 7u);
     for (const Need& need : a.would_need) {
-        EXPECT_FALSE(need.sentence.empty());
-        EXPECT_FALSE(need.is_enough && need.keys[0] == "drift.thermal_time_s") << need.sentence;
+        // The walk of lock-in goes with 1/sqrt(T). A step further where the gyros do not agree with the closed forms.
+        const bool is_tick = need.keys[0] == "gyro.tick_s";
+        const bool is_walk = need.keys[0] == "drift.random_walk_arcsec_sqrt_s";
+        EXPECT_EQ(need.is_enough, is_tick || is_walk) << need.sentence;
+        if (!need.is_enough) continue;
+        EXPECT_GE(need.share, 0.9) << need.sentence;
+        const double beyond = is_walk ? walk / need.to : need.to / (0.005 * (1.4 / walk) * (1.4 / walk));
+        EXPECT_GT(beyond, 0.9) << need.sentence;
+        EXPECT_LT(beyond, 2.0) << need.sentence;
     }
+}
+
+TEST(Choose, each_proof_has_gyros_of_its_own) {
+    // On the border: many candidates pass the trials and fall short of it in their proof.
+    const Requirement r = of_walk_alone(1.645 * 1.4 * std::sqrt(40.0), 60);
+    const Answer a = chosen(r);
+    ASSERT_GT(a.proofs, 1u);
+    const auto error = [&](std::uint64_t proof) {
+        const Population gyros{r, proof_seed(r.base.run.seed, proof), r.gyros};
+        return gyros.run(0, a.proof.candidate, config::Fidelity::events, {}).error_arcsec;
+    };
+    EXPECT_EQ(a.proof.trials[0].error_arcsec, error(a.proofs));
+    EXPECT_NE(a.proof.trials[0].error_arcsec, error(1));
+}
+
+// Uncorrected, a switch leaves a false angle that the next one takes back.
+TEST(Choose, false_angles_that_cancel_in_pairs_meet_nothing) {
+    const auto with_limit = [](double limit_arcsec) {
+        return parse_requirement(
+            fmt::format(
+                "[require]\nrun_s = 40\ngyros = 40\nconfidence = 0.9\nangle_error_arcsec = {}\n"
+                "[motion]\nkind = \"rest\"\n[compensation]\nrelock = \"none\"\nbridge = \"constant\"\nmagnetic = "
+                "\"none\"\n[switching]\nschedule = \"fixed\"\n[gyro]\nfidelity = \"averaged\"\n[drift]\n"
+                "magnetic_arcsec_s = 5\n",
+                limit_arcsec),
+            "r.toml");
+    };
+    const Requirement r = with_limit(10.0);
+    const Candidate two{
+        .method = methods(r).all.front(), .interval_s = 20.0, .first_segment = config::FirstSegment::half};
+    const Population gyros{r, 7, 1};
+    const Trial trial = gyros.run(0, two, config::Fidelity::averaged, {});
+    ASSERT_EQ(trial.switches, 2);
+    const double false_angle = std::abs(trial.alternating_arcsec);
+    ASSERT_LT(std::abs(trial.error_arcsec), 0.8 * false_angle);
+    const Answer a = chosen(with_limit(0.9 * false_angle));
+    EXPECT_FALSE(a.met);
+    EXPECT_GT(a.least_arcsec, 0.9 * false_angle);
+}
+
+TEST(Choose, a_run_shorter_than_the_trial_of_a_switch_is_met_too) {
+    const Answer a = choose(
+        {.requirement = parse_requirement("[require]\nrun_s = 4\ngyros = 20\nangle_error_arcsec = 30\n", "r.toml")});
+    EXPECT_TRUE(a.met);
+    EXPECT_EQ(a.proof.candidate.interval_s, 4.0) << "0.7 arcsec/s for 4 s, without a switch";
+}
+
+TEST(Choose, too_few_gyros_for_the_share_are_named) {
+    const auto says_so = [](int gyros) {
+        Requirement r = required("angle_error_arcsec = 30\nconfidence = 0.8\n");
+        r.gyros = gyros;
+        const std::vector<std::string> reasons = chosen(r).reasons;
+        return std::ranges::any_of(reasons, [](const std::string& s) { return s.find("cannot tell") != s.npos; });
+    };
+    EXPECT_TRUE(says_so(4));
+    EXPECT_FALSE(says_so(5)) << "one of them may miss it";
 }
 
 TEST(Choose, the_answer_is_the_same_for_any_number_of_threads) {

@@ -65,6 +65,19 @@ class Require(CliTest):
             self.assertEqual(done.returncode, 2, (arguments, done.stderr))
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
+    def test_no_interval_is_computed_for_a_drift_that_the_closed_forms_do_not_know(self):
+        field = ["field.kind=constant", "field.field_g=0.5", "field.sensitivity_arcsec_s_g=14"]
+        profile = ["temperature.profile=[[0, 20], [600, 40]]"]
+        path = self.required("angle_error_arcsec = 30")
+        for sets, key in ((field, "field.kind"), (profile, "temperature.profile")):
+            setting = [word for one in sets for word in ("--set", one)]
+            for arguments in (["design"], ["design", "--require", path], ["design", "--require", path, "--rules", "paper"],
+                              ["run", "--duration", "60", "--set", "switching.interval_s=optimal"]):
+                done = run(*arguments, *setting)
+                self.assertEqual(done.returncode, 2, (arguments, done.stdout, done.stderr))
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn(key, done.stderr)
+
     def test_nothing_is_overwritten(self):
         page = self.folder / "page.html"
         page.write_text("mine")

@@ -1,3 +1,4 @@
+#include <zlg/config/schema.hpp>
 #include <zlg/study/gyro_drift.hpp>
 
 #include "test.hpp"
@@ -15,6 +16,19 @@ TEST(GyroDrift, HasEachConstantOfTheConfigurationInItsPlace) {
     EXPECT_EQ(drift.magnetic_arcsec_s, 2.0);
     EXPECT_EQ(drift.magnetic_thermal_arcsec_s, 3.0);
     EXPECT_EQ(drift.thermal_time_s, 4.0);
+}
+
+TEST(GyroDrift, is_refused_where_a_field_or_a_profile_makes_another_of_it) {
+    config::Config field, profile;
+    field.field.kind = config::FieldKind::constant;
+    profile.temperature.profile.points = {{0.0, 20.0}, {200.0, 40.0}};
+    for (const auto& [config, key] : {std::pair{field, "field.kind = \"constant\""}, {profile, "temperature.profile"}})
+        try {
+            (void)gyro_drift(config);
+            ADD_FAILURE() << key;
+        } catch (const config::ConfigError& error) {
+            EXPECT_EQ(std::string{error.what()}.find(key), 0u) << error.what();
+        }
 }
 
 TEST(RunDrift, is_the_law_or_what_profile_and_field_make_of_it) {

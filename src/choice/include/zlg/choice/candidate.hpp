@@ -47,6 +47,9 @@ struct Methods {
 // The intervals of a method, simplest first: the run, which has no switch, whole parts of it, and preferred numbers.
 [[nodiscard]] std::vector<Candidate> candidates(const Requirement& requirement, const Method& method);
 
+// What goes with a factor on the tick: a gap lasts as long as before, and the walk is that of lock-in, 1/sqrt(T).
+void keep_with_tick(config::Config& gyro, double factor);
+
 // The gyro with what is chosen for it.
 [[nodiscard]] config::Config with(config::Config gyro, const Candidate& candidate);
 

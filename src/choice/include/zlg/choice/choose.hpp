@@ -4,9 +4,10 @@
 // Closed forms rank and discard first; the few candidates that are left are tried in the order of simplicity on common
 // gyros, 8 and 16 of them in pools of four, 64 and 128 one by one, and dropped as soon as they lie two standard
 // deviations below the confidence (successive halving: K. Jamieson, A. Talwalkar, AISTATS 2016, with a fixed
-// threshold). The first whose share is the confidence or more is proved on gyros that no choice has seen. It is met
-// where their share is the confidence or more; the share has the standard deviation of a binomial share with a flat
-// prior. If none meets it, the candidate with the least error is the answer to what can be met.
+// threshold). Each whose share is the confidence or more is proved, on gyros of its own that no other step has seen,
+// until one has a share that is the confidence or more: that one meets it. The share has the standard deviation of a
+// binomial share with a flat prior, as if it were the only one proved. If none meets it, the candidate with the least
+// error is the answer to what can be met.
 
 #include <cstdint>
 #include <functional>
@@ -27,6 +28,7 @@ struct Evaluation {
 
     [[nodiscard]] std::int64_t met(double limit_arcsec) const;
     [[nodiscard]] double share(double limit_arcsec) const;  // 0 where none was tried
+    [[nodiscard]] double rms_arcsec() const;                // of the errors of the good ones; 0 where there is none
 };
 
 // Standard deviation of a share of n, k of which hold: that of the posterior under a flat prior.
@@ -53,12 +55,12 @@ struct Answer {
     bool is_interrupted = false;  // what was known until then
     double probability = 0.0;     // of meeting the requirement, over the tolerances
     double probability_sigma = 0.0;
-    std::int64_t refused = 0, lost = 0;                      // of the gyros of the proof
-    config::Config gyro;                                     // the base with what is chosen
-    Evaluation proof;                                        // of the choice
-    double least_arcsec = 0.0;                               // error at the end that `confidence` of the gyros keep
-    std::int64_t lived = 0, lived_met = 0;                   // the first gyros of the proof, every half of them lived
-    double lived_rms_arcsec = 0.0, proved_rms_arcsec = 0.0;  // of the errors of these, both ways
+    std::int64_t refused = 0, lost = 0;  // of the gyros of the proof
+    std::uint64_t proofs = 0;            // candidates that were proved, each on gyros of its own
+    config::Config gyro;                 // the base with what is chosen
+    Evaluation proof;                    // of the choice
+    double least_arcsec = 0.0;           // error at the end that `confidence` of the gyros keep
+    Evaluation simulated;                // the first gyros of the proof, simulated half by half
     std::vector<std::string> reasons;
     std::vector<Part> parts;                             // of the error at the end
     std::vector<std::pair<std::string, double>> budget;  // (3) to (7) and what else there is, by name with unit

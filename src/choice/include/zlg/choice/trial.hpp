@@ -19,7 +19,6 @@ struct Trial {
     std::string reason;              // one line; empty where good
     double error_arcsec = 0.0;       // of the angle at the end, less the constant drift that both modes share
     std::int64_t switches = 0;       // of known error
-    double switches_arcsec = 0.0;    // sum of their errors
     double switch_rms_arcsec = 0.0;  // about the alternating mean
     double alternating_arcsec = 0.0;
 

@@ -8,21 +8,25 @@
 
 namespace zlg::study {
 
-// As the theory has it.
-inline design::GyroDrift gyro_drift(const config::Config& config) {
-    const config::Drift& d = config.drift;
-    return {.nonmagnetic_arcsec_s = d.nonmagnetic_arcsec_s,
-            .magnetic_arcsec_s = d.magnetic_arcsec_s,
-            .magnetic_thermal_arcsec_s = d.magnetic_thermal_arcsec_s,
-            .thermal_time_s = d.thermal_time_s};
-}
+// As the closed forms of design, optimal interval and choice have it: warmed alone, without a field.
+//
+// errors  config::ConfigError where [field] or temperature.profile make another drift of it.
+[[nodiscard]] design::GyroDrift gyro_drift(const config::Config& config);
 
 // Of a run, in its environment: how far the drift that changes its sign turns the gyro in the left mode.
 class RunDrift {
 public:
     RunDrift(const design::GyroDrift& law) : law_{law} {}  // of no profile and no field
     explicit RunDrift(const config::Config& config)
-        : law_{gyro_drift(config)}, gyro_{config.gyro}, temperature_{config.temperature}, field_{config.field} {}
+        : law_{law_of(config.drift)}, gyro_{config.gyro}, temperature_{config.temperature}, field_{config.field} {}
+
+    // The change by warming, whatever else there is.
+    [[nodiscard]] static design::GyroDrift law_of(const config::Drift& d) {
+        return {.nonmagnetic_arcsec_s = d.nonmagnetic_arcsec_s,
+                .magnetic_arcsec_s = d.magnetic_arcsec_s,
+                .magnetic_thermal_arcsec_s = d.magnetic_thermal_arcsec_s,
+                .thermal_time_s = d.thermal_time_s};
+    }
 
     [[nodiscard]] double nonmagnetic_arcsec_s() const { return law_.nonmagnetic_arcsec_s; }
 
