@@ -107,16 +107,17 @@ std::int64_t ClosedLoop::quiet_ticks(std::int64_t most_halves) {
 }
 
 std::optional<Leap> ClosedLoop::leap(std::int64_t most_halves) {
-    std::int64_t ticks = quiet_ticks(most_halves);
-    if (ticks < least_ticks) return {};
+    const std::int64_t quiet = quiet_ticks(most_halves);
+    if (quiet < least_ticks) return {};
     if (piece_ticks_ == 0) {
-        piece_ticks_ = ticks / parts_of_a_stretch + 1;
+        piece_ticks_ = quiet / parts_of_a_stretch + 1;
         learn_ticks_ = has_leapt_ ? plan_->learn_ticks : first_lessons * plan_->learn_ticks;
         has_leapt_ = true;
     }
-    const bool singly = plan_->all_singly || ticks <= learn_ticks_;
-    ticks = std::min(singly ? std::min(ticks, most_single_ticks) : ticks - learn_ticks_,
-                     std::max(piece_ticks_, least_ticks));
+    const bool singly = plan_->all_singly || quiet <= learn_ticks_;
+    std::int64_t ticks = std::min(singly ? std::min(quiet, most_single_ticks) : quiet - learn_ticks_,
+                                  std::max(piece_ticks_, least_ticks));
+    ticks = std::min(ticks, twin_.even_halves() / 2);
     const core::PiezoRange& range = control_config_.loop.range;
     // The warming moves the piezo in one direction: where it ends, it is nearest to an end of the range.
     while (ticks > 0 && near_end(range, core::Volts{twin_.voltage_after(2 * ticks)})) ticks /= 2;

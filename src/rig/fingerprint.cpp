@@ -132,7 +132,7 @@ void Fingerprint::take(const Leap& leap) {
     bytes.whole(leap.counts);
     bytes.whole(leap.parts);
     for (const double x : {leap.dtheta_arcsec, leap.turned_counts, leap.rounding_arcsec, leap.set_point_v,
-                           leap.temperature_c, leap.light_ratio, leap.balance_ratio, leap.bias_ratio})
+                           leap.temperature_c, leap.bias_ratio, leap.light_after[0], leap.light_after[1]})
         bytes.real(x);
     n_last_half_ = bytes.size();
 }

@@ -6,15 +6,15 @@
 #include <fmt/format.h>
 
 #include <zlg/core/compensation/gap_bridge_config.hpp>
+#include <zlg/rig/wiring.hpp>
 
 namespace zlg::rig {
 namespace {
 
 constexpr std::int64_t never = std::int64_t{1} << 62;
 
-// Of light_balance.hpp: 100 ticks, one in four.
-constexpr std::int64_t balance_ticks = 400;
-constexpr std::int64_t halves_of_a_debounce = 8;
+constexpr auto balance_ticks = static_cast<std::int64_t>(core::balance_memory_ticks) * core::halves_a_lesson / 2;
+constexpr std::int64_t spare_ticks = 8;  // in which a half may still be judged by those before it
 constexpr double time_constants = 12.0;  // exp(-12) of a miss of .22 wavelength is below what the light shows
 
 std::int64_t settling_ticks(const config::Config& config) {
@@ -46,18 +46,15 @@ LeapPlan leap_plan(const config::Config& config, const core::GyroControlConfig& 
         std::max<std::int64_t>(config.compensation.relock_ticks, core::ticks_to_correction(compensation.gyro, bridge));
     const std::int64_t window = std::max(core::ticks_before_estimate, 8);
     return {.start_ticks = (by_phase ? 5 : 2) * balance_ticks,
-            .after_ticks = std::max(settles, corrected) + halves_of_a_debounce,
-            .before_ticks = settles + window + halves_of_a_debounce,
+            .after_ticks = std::max(settles, corrected) + spare_ticks,
+            .before_ticks = settles + window + spare_ticks,
             .learn_ticks = is_estimated ? static_cast<std::int64_t>(core::forget_ticks) : 0,
             .all_singly = drifts_are_followed && !motion.is_even(),
             .noise = noise_of(config, control.loop)};
 }
 
 std::string why_lived(const config::Config& config, const twin::Motion& motion) {
-    const config::Piezo& z = config.piezo;
-    if (z.hysteresis != 0.0) return fmt::format("piezo.hysteresis = {}", z.hysteresis);
-    if (z.creep_per_decade != 0.0) return fmt::format("piezo.creep_per_decade = {}", z.creep_per_decade);
-    if (z.mirror_hz != 0.0) return fmt::format("piezo.mirror_hz = {}", z.mirror_hz);
+    if (const std::string why = twin::why_no_leap(twin_config(config)); !why.empty()) return why;
     if (config.compensation.lock_in_hz != 0.0)
         return fmt::format("compensation.lock_in_hz = {}", config.compensation.lock_in_hz);
     const double bias_counts_s = std::abs(config.gyro.bias_hz);

@@ -245,9 +245,10 @@ std::optional<std::string> late_switches(const config::Config& config, const std
 }
 
 std::optional<std::string> lived_after_all(const config::Config& config, const twin::Motion& motion) {
+    if (config.gyro.fidelity != config::Fidelity::events) return {};
     const std::string why = rig::why_lived(config, motion);
-    if (config.gyro.fidelity != config::Fidelity::events || why.empty()) return {};
-    return fmt::format("gyro.fidelity = \"events\": every half is lived, for {}", why);
+    if (why.empty()) return {};
+    return fmt::format("gyro.fidelity = \"events\": the whole run is simulated half by half, for {}", why);
 }
 
 // The same gyro without switching: its error is what switching is to remove.

@@ -11,6 +11,7 @@ namespace zlg::twin {
 
 AveragedGyro::AveragedGyro(const TwinConfig& config, Motion motion)
     : config_{config},
+      can_leap_{why_no_leap(config).empty()},
       motion_{std::move(motion)},
       plateau_over_mean_{1.0 / (1.0 - config.gyro.bias_edge_s / config.gyro.tick_s)},
       walk_of_half_arcsec_{config.drift.random_walk_arcsec_sqrt_s * std::sqrt(0.5 * config.gyro.tick_s)},

@@ -22,11 +22,13 @@ public:
     const TwinHalf& advance(const core::ActuatorFrame& actuator) override;
 
     std::int64_t quiet_halves() override;
+    std::int64_t even_halves() override;
     double voltage_after(std::int64_t halves) override { return housing_.voltage_after(halves); }
     Leap leap(std::int64_t halves, const LeapWay& way) override;
 
 private:
     struct Drifts;
+    [[nodiscard]] double magnetic_arcsec_s(double start_s, double end_s) const;
     void pass_singly(const Drifts& drifts, Leap& made);
     void pass_over(const Drifts& drifts, Leap& made);
     void add_detuning_noise(const Drifts& drifts, const DetuningNoise& noise, Leap& made);
@@ -40,6 +42,7 @@ private:
     [[nodiscard]] double plateau_hz() const;
 
     TwinConfig config_;
+    bool can_leap_;
     Motion motion_;
     double plateau_over_mean_;    // the bias between its reversals over its mean
     double walk_of_half_arcsec_;  // standard deviation

@@ -1,8 +1,13 @@
 // Leaps of the averaged gyro.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include <zlg/core/common/maths.hpp>
 
@@ -17,9 +22,20 @@ double mean_warming(double thermal_time_s, double start_s, double end_s) {
     return 1.0 + core::maths::exp(-start_s / thermal_time_s) * core::maths::expm1(-length) / length;
 }
 
-double ratio(double after, double before) { return before != 0.0 ? after / before : 1.0; }
-
 }  // namespace
+
+std::string why_no_leap(const TwinConfig& config) {
+    const std::array memories{std::pair{"piezo.hysteresis", config.piezo.hysteresis},
+                              std::pair{"piezo.creep_per_decade", config.piezo.creep_per_decade},
+                              std::pair{"piezo.mirror_hz", config.piezo.mirror_hz},
+                              std::pair{"temperature.sensor_lag_s", config.temperature.sensor_lag_s}};
+    for (const auto& [key, value] : memories)
+        if (value != 0.0) return fmt::format("{} = {}", key, value);
+    if (config.temperature.profile.is_given()) return "temperature.profile";
+    if (config.field.kind == FieldKind::sine) return "field.kind = \"sine\"";
+    if (config.field.kind == FieldKind::file) return "field.kind = \"file\"";
+    return {};
+}
 
 // What adds to the phase in halves start, start + 1, ... beside the walk.
 struct AveragedGyro::Drifts {
@@ -27,18 +43,22 @@ struct AveragedGyro::Drifts {
     double rate_arcsec_s = 0.0;      // of both drifts
     double first_bias_cycles = 0.0;  // of a half of positive sign, at the start,
     double last_bias_cycles = 0.0;   // and at the end
-    int helicity = 1;
 };
 
-// What a piezo with a memory, a sensor that lags, or a fault, does to a half follows from all halves before it. A
-// course of the temperature or of a field has no integral here.
-std::int64_t AveragedGyro::quiet_halves() {
-    const PiezoConfig& z = config_.piezo;
-    const TemperatureConfig& t = config_.temperature;
-    const bool has_memory =
-        z.hysteresis != 0.0 || z.creep_per_decade != 0.0 || z.mirror_hz != 0.0 || t.sensor_lag_s != 0.0;
-    const bool has_course = !t.profile.points.empty() || config_.field.kind != FieldKind::none;
-    return has_memory || has_course ? 0 : housing_.halves_without_fault();
+std::int64_t AveragedGyro::quiet_halves() { return can_leap_ ? housing_.halves_without_fault() : 0; }
+
+std::int64_t AveragedGyro::even_halves() {
+    const double stays_s = field_stays_until_s(config_.field, housing_.start_s()) - housing_.start_s();
+    return static_cast<std::int64_t>(std::min(stays_s / housing_.half_s(), 0x1p53));
+}
+
+// Mean of a stretch in which the field stays.
+double AveragedGyro::magnetic_arcsec_s(double start_s, double end_s) const {
+    const DriftConfig& d = config_.drift;
+    const double warmed = mean_warming(d.thermal_time_s, start_s, end_s);
+    if (config_.field.kind == FieldKind::none) return d.magnetic_arcsec_s + d.magnetic_thermal_arcsec_s * warmed;
+    const double above_c = config_.gyro.temperature_rise_c * warmed + housing_.shock_c();
+    return twin::magnetic_arcsec_s(config_.field, above_c, start_s);
 }
 
 Leap AveragedGyro::leap(std::int64_t halves, const LeapWay& way) {
@@ -47,22 +67,16 @@ Leap AveragedGyro::leap(std::int64_t halves, const LeapWay& way) {
     const double half_s = housing_.half_s();
     const Mode mode = housing_.perimeter().mode();
     const double hz_before = bias_hz();
-    const double light = housing_.photodiodes().power(start_s);
-    const double balance = housing_.photodiodes().gain_growth(start_s);
     const std::uint64_t counter = counter_.value();
     Leap made{.halves = halves, .start_place = counter_.fraction(), .set_point_v = housing_.leap(halves)};
     const double end_s = housing_.start_s();
-    const double warmed = mean_warming(config_.drift.thermal_time_s, start_s, end_s);
-    const DriftConfig& d = config_.drift;
     const double lit =
         mode.helicity() * half_s * (1.0 - config_.gyro.bias_chi * mode.detuning_lambda * mode.detuning_lambda);
     const Drifts drifts{
         .start = start,
-        .rate_arcsec_s =
-            mode.helicity() * (d.magnetic_arcsec_s + d.magnetic_thermal_arcsec_s * warmed) + d.nonmagnetic_arcsec_s,
+        .rate_arcsec_s = mode.helicity() * magnetic_arcsec_s(start_s, end_s) + config_.drift.nonmagnetic_arcsec_s,
         .first_bias_cycles = lit * hz_before,
-        .last_bias_cycles = lit * bias_hz(),
-        .helicity = mode.helicity()};
+        .last_bias_cycles = lit * bias_hz()};
     made.dtheta_arcsec = motion_.increment_arcsec(start_s, end_s);
     if (way.singly)
         pass_singly(drifts, made);
@@ -73,9 +87,9 @@ Leap AveragedGyro::leap(std::int64_t halves, const LeapWay& way) {
     housing_.count_on(counter_.value());
     made.rounding_arcsec = -config_.gyro.scale_arcsec * counter_.fraction();
     made.temperature_c = housing_.temperature_c() + config_.temperature.sensor_error_c;
-    made.light_ratio = ratio(housing_.photodiodes().power(end_s), light);
-    made.balance_ratio = ratio(housing_.photodiodes().gain_growth(end_s), balance);
-    made.bias_ratio = ratio(bias_hz(), hz_before);
+    made.light_before = housing_.photodiodes().centred(start_s);
+    made.light_after = housing_.photodiodes().centred(end_s);
+    made.bias_ratio = hz_before != 0.0 ? bias_hz() / hz_before : 1.0;
     return made;
 }
 

@@ -2,6 +2,7 @@
 // What the photodiodes of the two beams make of their light: unequal gains, offsets, and the power that falls with the
 // years of the tube.
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -22,8 +23,11 @@ public:
         return config_.power_decay_per_h == 0.0 ? 1.0 : core::maths::exp(-config_.power_decay_per_h * hours(time_s));
     }
 
-    // Of beam B over that of A, by the drift of the gain alone.
-    [[nodiscard]] double gain_growth(double time_s) const { return 1.0 + config_.gain_drift_per_h * hours(time_s); }
+    // Mean samples of both beams at the centre of a mode.
+    [[nodiscard]] std::array<double, 2> centred(double time_s) const {
+        const double b = config_.gain_b * (1.0 + config_.gain_drift_per_h * hours(time_s));
+        return {light_level * (power(time_s) + config_.offset_a), light_level * (power(time_s) * b + config_.offset_b)};
+    }
 
     // The samples of a half around this time. No photodiode shows less than none.
     void see(double time_s, core::SensorFrame& sensor) const {

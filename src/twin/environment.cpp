@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <zlg/core/common/maths.hpp>
@@ -55,6 +56,14 @@ double field_g(const FieldConfig& field, double time_s) {
             return between(field.course.points, time_s);
     }
     return 0.0;
+}
+
+double field_stays_until_s(const FieldConfig& field, double time_s) {
+    if (field.kind == FieldKind::sine || field.kind == FieldKind::file) return time_s;
+    if (field.kind != FieldKind::steps) return std::numeric_limits<double>::infinity();
+    const std::span<const CoursePoint> points = field.course.points;
+    const auto next = after(points, time_s);
+    return next == points.end() ? std::numeric_limits<double>::infinity() : next->at_s;
 }
 
 }  // namespace zlg::twin

@@ -19,6 +19,7 @@ public:
 
     // As the functions of Twin; a gyro that cannot leap has no quiet half.
     virtual std::int64_t quiet_halves() { return 0; }
+    virtual std::int64_t even_halves() { return 0; }
     virtual double voltage_after(std::int64_t) { return 0.0; }
     virtual Leap leap(std::int64_t, const LeapWay&) { return {}; }
 };

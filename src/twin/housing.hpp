@@ -52,9 +52,8 @@ public:
     // Of the piezo, when so many halves have passed.
     [[nodiscard]] double voltage_after(std::int64_t halves);
     [[nodiscard]] double temperature_c() const;
-    // Of the light of beam A, and of B over A, now over those at a time.
     [[nodiscard]] const BeamPhotodiodes& photodiodes() const { return photodiodes_; }
-    [[nodiscard]] double warming() const { return warming_end_; }
+    [[nodiscard]] double shock_c() const { return shock_end_c_; }  // above what the gyro's own warming makes
 
     [[nodiscard]] double half_s() const { return half_s_; }
     [[nodiscard]] int n_pieces() const { return n_pieces_; }  // of one light-sample interval

@@ -169,6 +169,7 @@ Twin& Twin::operator=(Twin&&) noexcept = default;
 
 const TwinHalf& Twin::advance(const core::ActuatorFrame& actuator) { return gyro_->advance(actuator); }
 std::int64_t Twin::quiet_halves() { return gyro_->quiet_halves(); }
+std::int64_t Twin::even_halves() { return gyro_->even_halves(); }
 double Twin::voltage_after(std::int64_t halves) { return gyro_->voltage_after(halves); }
 Leap Twin::leap(std::int64_t halves, const LeapWay& way) { return gyro_->leap(halves, way); }
 

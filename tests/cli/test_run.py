@@ -243,7 +243,7 @@ class FromEventToEvent(CliTest):
     def test_it_says_why_every_half_is_lived(self):
         result = json.loads(self.succeed("run", *self.EVENTS, "--set", "piezo.hysteresis=0.1", "--logs", "none", "--json", "--out",
                                          self.folder / "run").stdout)
-        self.assertIn("every half is lived, for piezo.hysteresis = 0.1", " ".join(result["warnings"]))
+        self.assertIn("the whole run is simulated half by half, for piezo.hysteresis = 0.1", " ".join(result["warnings"]))
 
 
 class WhatIsCounted(CliTest):

@@ -133,9 +133,9 @@ TEST(Leap, the_control_is_as_after_the_halves) {
     EXPECT_LE(std::abs(static_cast<std::int64_t>(b.counter - a.counter)), 1);
     EXPECT_NEAR(b.mean_temperature_c, a.mean_temperature_c, 2e-3);
     EXPECT_NEAR(b.temperature_c, a.temperature_c, 1e-9);
-    // How fast the balance drifts is learnt in four seconds, of which two were lived: less than the noise of light, of
-    // which 2.7e-5 are in the weight, would leave.
-    EXPECT_NEAR(b.light_balance.weight / a.light_balance.weight, 1.0, 2.7e-5);
+    // A hundredth of what is left where the drift of the balance is not led on as by the halves.
+    EXPECT_NEAR(b.light_balance.weight / a.light_balance.weight, 1.0, 1e-6);
+    EXPECT_NEAR(b.light_balance.drift / a.light_balance.drift, 1.0, 0.02);
     EXPECT_NEAR(b.light_balance.level / a.light_balance.level, 1.0, 1e-4);
     EXPECT_NEAR(b.bias_monitor.bias_counts, a.bias_monitor.bias_counts, 0.3);
     EXPECT_NEAR(b.piezo_v, a.piezo_v, 0.15);

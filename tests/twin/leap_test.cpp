@@ -70,6 +70,24 @@ TEST(Leap, without_a_walk_ends_where_the_halves_end) {
     }
 }
 
+TEST(Leap, of_a_field_that_stays_ends_where_the_halves_end_and_stops_at_its_step) {
+    TwinConfig config = warming_gyro();
+    config.field.sensitivity_per_c = 0.02;
+    config.field.kind = FieldKind::constant;
+    EXPECT_NEAR(leapt(config, Motion::rest(), 100, 4000).phase_counts,
+                lived(config, Motion::rest(), 100, 4000).phase_counts, 3e-4);
+    config.field.kind = FieldKind::steps;
+    config.field.course.points = {{0.0, 0.3}, {0.25, -0.6}, {10.0, 0.9}};
+    EXPECT_NEAR(leapt(config, Motion::rest(), 100, 3900).phase_counts,
+                lived(config, Motion::rest(), 100, 3900).phase_counts, 3e-4);
+    Twin twin{config, Motion::rest()};
+    EXPECT_EQ(twin.even_halves(), 100);
+    advance(twin, frame(true, 1), 100);
+    EXPECT_EQ(twin.even_halves(), 3900);
+    advance(twin, frame(true, 1), 3900);
+    EXPECT_GT(twin.even_halves(), 1'000'000'000);
+}
+
 TEST(Leap, tells_the_voltage_that_it_will_end_at) {
     const TwinConfig config = warming_gyro();
     Twin twin{config, Motion::rest()};
@@ -79,14 +97,19 @@ TEST(Leap, tells_the_voltage_that_it_will_end_at) {
     EXPECT_NEAR(twin.advance(frame(true, 1)).truth.perimeter_v, foretold, 2e-3);
 }
 
-TEST(Leap, tells_by_what_light_balance_and_bias_have_changed) {
+TEST(Leap, tells_what_light_and_bias_have_become) {
     TwinConfig config = warming_gyro();
     config.light.power_decay_per_h = 10.0;
     config.light.gain_drift_per_h = 5.0;
+    config.light.gain_b = 1.3;
+    config.light.offset_a = 0.01;
     Twin twin{config, Motion::rest()};
     const Leap leap = twin.leap(36'000);  // 90 s
-    EXPECT_NEAR(leap.light_ratio, std::exp(-10.0 * 90.0 / 3600.0), 1e-12);
-    EXPECT_NEAR(leap.balance_ratio, 1.0 + 5.0 * 90.0 / 3600.0, 1e-12);
+    const double power = std::exp(-10.0 * 90.0 / 3600.0), gain = 1.0 + 5.0 * 90.0 / 3600.0;
+    EXPECT_NEAR(leap.light_before[0], 1010.0, 1e-9);
+    EXPECT_NEAR(leap.light_before[1], 1300.0, 1e-9);
+    EXPECT_NEAR(leap.light_after[0], 1000.0 * power + 10.0, 1e-9);
+    EXPECT_NEAR(leap.light_after[1], 1300.0 * power * gain, 1e-9);
     EXPECT_NEAR(leap.bias_ratio, 1.0 + 1e-4 * 20.0 * (1.0 - std::exp(-90.0 / 20.0)), 1e-6);
     EXPECT_NEAR(leap.temperature_c, 20.0 + 20.0 * (1.0 - std::exp(-90.0 / 20.0)), 1e-9);
 }
@@ -152,9 +175,17 @@ TEST(Leap, no_half_of_a_piezo_with_a_memory_or_before_a_fault_is_quiet) {
     EXPECT_EQ(faulty.quiet_halves(), 400);
     advance(faulty, frame(true, 1), 450);
     EXPECT_EQ(faulty.quiet_halves(), 0);
-    config = quiet_gyro();
-    config.piezo.creep_per_decade = 0.01;
-    EXPECT_EQ((Twin{config, Motion::rest()}.quiet_halves()), 0);
+    const auto why = [](auto change) {
+        TwinConfig changed = quiet_gyro();
+        change(changed);
+        EXPECT_EQ((Twin{changed, Motion::rest()}.quiet_halves()), 0);
+        return why_no_leap(changed);
+    };
+    EXPECT_EQ(why([](TwinConfig& c) { c.piezo.creep_per_decade = 0.01; }), "piezo.creep_per_decade = 0.01");
+    EXPECT_EQ(why([](TwinConfig& c) { c.temperature.sensor_lag_s = 5.0; }), "temperature.sensor_lag_s = 5");
+    EXPECT_EQ(why([](TwinConfig& c) { c.temperature.profile.points = {{0.0, 20.0}}; }), "temperature.profile");
+    EXPECT_EQ(why([](TwinConfig& c) { c.field.kind = FieldKind::sine; }), "field.kind = \"sine\"");
+    EXPECT_EQ(why_no_leap(quiet_gyro()), "");
 }
 
 }  // namespace zlg::twin::leap_test

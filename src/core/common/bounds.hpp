@@ -15,6 +15,8 @@ template <class Number>
 
 [[nodiscard]] constexpr double square(double x) noexcept { return x * x; }
 
+[[nodiscard]] constexpr double larger(double a, double b) noexcept { return a > b ? a : b; }
+
 [[nodiscard]] constexpr bool is_within(double x, double min, double max) noexcept { return x >= min && x <= max; }
 
 // A counter that stops at its end instead of wrapping.

@@ -47,8 +47,6 @@ constexpr double far_sq = 9.0;
 // Growth of the variance of what was presumed, (arcsec/s)^2 a second: by Q 0.2 arcsec/s in an hour.
 constexpr double wander = 1e-5;
 
-double larger(double a, double b) noexcept { return a > b ? a : b; }
-
 // h^T x of the states; M is not observed.
 template <class Vector>
 double product(const MagneticVector& h, const Vector& x) noexcept {
@@ -152,14 +150,12 @@ void renew(const MagneticDriftConfig& config, MagneticDriftState& state, double 
     state.trust = trust > 0.0 ? trust : 0.0;
 }
 
-// What is subtracted in so many ticks between two predictions: what is due above the drift of a tick falls by the gain
-// from tick to tick.
-double subtract(MagneticDriftState& s, double tick_s, std::int32_t ticks) noexcept {
+// What is subtracted in so many ticks between two predictions: their drift, and of what is due above that of one tick
+// such a part.
+double subtract(MagneticDriftState& s, double tick_s, std::int32_t ticks, double part) noexcept {
     const double rate = s.mode * s.estimate[of_drift], now = s.trust * tick_s * rate;
     const double angle = s.estimate[of_angle] + s.pending_ticks * tick_s * rate;
-    const double lacking = s.trust * angle - now - s.subtracted_arcsec;
-    const double part = -maths::expm1(ticks * maths::log(1.0 - past_correction_gain));
-    const double due = ticks * now + lacking * part;
+    const double due = ticks * now + part * (s.trust * angle - now - s.subtracted_arcsec);
     s.subtracted_arcsec += due;
     return due;
 }
@@ -189,13 +185,7 @@ double step(const CompensationConstants& gyro, const MagneticDriftConfig& config
     if (++state.pending_ticks >= block_ticks || ends) renew(config, state, tick_s);
     if (mode == 0) return 0.0;
     accumulate(state.segment, tick.angle_arcsec);
-    if (config.method != MagneticMethod::estimate) return 0.0;
-    const double rate = mode * state.estimate[of_drift];
-    const double angle = state.estimate[of_angle] + state.pending_ticks * tick_s * rate;
-    const double now = state.trust * tick_s * rate;
-    const double due = now + past_correction_gain * (state.trust * angle - now - state.subtracted_arcsec);
-    state.subtracted_arcsec += due;
-    return due;
+    return config.method == MagneticMethod::estimate ? subtract(state, tick_s, 1, past_correction_gain) : 0.0;
 }
 
 double leap(const CompensationConstants& gyro, const MagneticDriftConfig& config, MagneticDriftState& state,
@@ -204,11 +194,12 @@ double leap(const CompensationConstants& gyro, const MagneticDriftConfig& config
     double subtracted = 0.0;
     // As `step`, a tick that completes a block is subtracted by what is renewed in it.
     for (std::int64_t left = ticks; left > 0;) {
-        ++state.pending_ticks;
-        if (state.pending_ticks >= block_ticks) renew(config, state, tick_s);
+        if (++state.pending_ticks >= block_ticks) renew(config, state, tick_s);
         const std::int64_t to_block = block_ticks - state.pending_ticks;
         const auto part = static_cast<std::int32_t>(left < to_block ? left : to_block);
-        if (config.method == MagneticMethod::estimate) subtracted += subtract(state, tick_s, part);
+        // What is due falls by the gain from tick to tick.
+        const double gained = -maths::expm1(part * maths::log(1.0 - past_correction_gain));
+        if (config.method == MagneticMethod::estimate) subtracted += subtract(state, tick_s, part, gained);
         state.pending_ticks += part - 1;
         left -= part;
     }

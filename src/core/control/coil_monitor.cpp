@@ -26,8 +26,6 @@ constexpr double first_asymmetry = 0.03;
 constexpr double max_a = 1e9;
 constexpr double min_a = 1e-6;
 
-double larger(double x, double y) noexcept { return x > y ? x : y; }
-
 // Difference of the two signs over their sum.
 double asymmetry(double negative_a, double positive_a) noexcept {
     return size(positive_a - negative_a) / (positive_a + negative_a);

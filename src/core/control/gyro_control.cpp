@@ -13,10 +13,8 @@ namespace {
 constexpr std::int32_t near_end_debounce = 4;
 constexpr std::int32_t near_end_retry = 512;
 
-// The gyro warms up (or cools) where its temperature differs by more than this from its running mean, whose time
-// constant is 8192 halves, 20 s.
+// The gyro warms up (or cools) where its temperature differs by more than this from its running mean.
 constexpr double warming_c = 0.05;
-constexpr double temperature_weight = 1.0 / 8192.0;
 
 // The piezo is at rest where what is still to come of its move, and the distance of the reading from the set-point, are
 // at most this much perimeter. The second includes the error of the reading.

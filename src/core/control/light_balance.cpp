@@ -7,14 +7,6 @@
 namespace zlg::core {
 namespace {
 
-// Ticks of the mean of w, and those after which it is compared with the slower one: of a settled gyro, of which one in
-// four is learnt from, 2 s of 5 ms. A hundredth of the noise of a half is then left in w.
-constexpr double memory_ticks = 100.0;
-
-// By which w is led on from tick to tick, so that no even drift is left in it: both at once as quickly as can be
-// without swinging, a double pole at 1 - 1/200.
-constexpr double drift_gain = 0.25 / square(memory_ticks);
-
 constexpr double max_change = 0.0133;
 constexpr double max_fade = 0.2;
 
@@ -62,16 +54,16 @@ bool is_possible(double weight) noexcept { return weight < max_weight && weight 
 
 void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const BalancedHalf& half) noexcept {
     if (s.n_ticks < limits.balance_ticks) s.n_ticks += 1.0;
-    const double n = s.n_ticks < memory_ticks ? s.n_ticks : memory_ticks;
+    const double n = s.n_ticks < balance_memory_ticks ? s.n_ticks : balance_memory_ticks;
     const double odd = limited(0.5 * (s.last_signal + half.signal), 0.5);
     // What leaps is no drift.
-    const bool leaps = n < memory_ticks || size(odd) > max_change;
-    const double drift = leaps ? 0.0 : s.drift + drift_gain * odd;
+    const bool leaps = n < balance_memory_ticks || size(odd) > max_change;
+    const double drift = leaps ? 0.0 : s.drift + balance_drift_gain * odd;
     const double step = odd / n + drift;
     const double weight = s.weight * (1.0 + step) / (1.0 - step);
     // A beam that fades within minutes by more than a fifth comes back: followed all the way, it would then be too
     // bright.
-    const bool is_near = n < memory_ticks || size(weight - s.slow_weight) < max_fade * s.slow_weight ||
+    const bool is_near = n < balance_memory_ticks || size(weight - s.slow_weight) < max_fade * s.slow_weight ||
                          size(weight - s.slow_weight) < size(s.weight - s.slow_weight);
     if (is_near && is_possible(weight)) {
         s.weight = weight;
@@ -79,7 +71,7 @@ void learn_weight(const MonitorLimits& limits, LightBalanceState& s, const Balan
     }
     s.level += (half.light - s.level) / n;
     s.slow_weight += (s.weight - s.slow_weight) / s.n_ticks;
-    s.changes = s.n_ticks >= memory_ticks && size(s.weight - s.slow_weight) > max_change * s.slow_weight;
+    s.changes = s.n_ticks >= balance_memory_ticks && size(s.weight - s.slow_weight) > max_change * s.slow_weight;
 }
 
 // Most beams that fade come back soon, and are then as they were.

@@ -34,7 +34,6 @@ enum class Cause : std::uint16_t {
     sweep_parameter,
     sweep_order,
     sweep_shift,
-    sweep_resampling,
 
     // 0x8000..0xffff: campaigns, benchmarks and tests
     synthetic_motion = 0x8000,

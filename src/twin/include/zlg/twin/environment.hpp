@@ -25,6 +25,10 @@ struct TemperatureSpan {
 // Gauss.
 [[nodiscard]] double field_g(const FieldConfig& field, double time_s);
 
+// When the field leaves what it is at a time: of steps the next one, infinite after the last and of a constant one; of
+// others that time.
+[[nodiscard]] double field_stays_until_s(const FieldConfig& field, double time_s);
+
 // The drift that the field makes in the left mode of a gyro that is so much warmer than at its reference.
 [[nodiscard]] inline double magnetic_arcsec_s(const FieldConfig& field, double above_reference_c, double time_s) {
     return field.sensitivity_arcsec_s_g * (1.0 + field.sensitivity_per_c * above_reference_c) * field_g(field, time_s);

@@ -6,9 +6,12 @@
 // Rotation and drift are integrals, the loop holds its detuning while the block grows, and the bias cancels in pairs of
 // halves but for its growth. A digital loop adds the noise that light makes of its detuning.
 
+#include <array>
 #include <cstdint>
-#include <span>
+#include <string>
 #include <vector>
+
+#include <zlg/twin/twin_config.hpp>
 
 namespace zlg::twin {
 
@@ -45,11 +48,15 @@ struct Leap {
     double rounding_arcsec = 0.0;  // counter less phase at the end
     double set_point_v = 0.0;      // by which that of a digital loop has followed the block
     double temperature_c = 0.0;    // at the end
-    // At the end over those at the start: the light of beam A, of B over A, the bias.
-    double light_ratio = 1.0;
-    double balance_ratio = 1.0;
-    double bias_ratio = 1.0;
+    double bias_ratio = 1.0;       // the bias at the end over that at the start
+    // Mean samples of the beams A and B.
+    std::array<double, 2> light_before{1.0, 1.0};
+    std::array<double, 2> light_after{1.0, 1.0};
     std::vector<QuietHalf> half{};  // all of them, or none
 };
+
+// Why no halves of an averaged gyro can be passed over at once: key and value of what makes each follow from all
+// before it, or of what has no integral; empty where they can.
+[[nodiscard]] std::string why_no_leap(const TwinConfig& config);
 
 }  // namespace zlg::twin

@@ -41,9 +41,11 @@ public:
     // Halves from here on that may be leapt over where the loop has settled: of an averaged gyro those before the next
     // fault; 0 of a laser, and of a gyro whose halves follow no closed law.
     [[nodiscard]] std::int64_t quiet_halves();
+    // Of these, those before the magnetic field steps: the drift of a leap is even.
+    [[nodiscard]] std::int64_t even_halves();
     // Of the piezo, when so many quiet halves have passed. It changes in one direction only.
     [[nodiscard]] double voltage_after(std::int64_t halves);
-    // Pass over so many quiet halves, an even number.
+    // Pass over so many quiet and even halves, an even number.
     Leap leap(std::int64_t halves, const LeapWay& way = {});
 
 private:

@@ -24,6 +24,9 @@
 
 namespace zlg::core {
 
+// Of the running mean of the temperature: its time constant is 8192 halves, 20 s.
+inline constexpr double temperature_weight = 1.0 / 8192.0;
+
 // Large arrays come last, here and in the state: an instruction of the processor reaches 1 KB from the start.
 struct GyroControlConfig {
     PerimeterLoopConfig loop{};
@@ -97,7 +100,7 @@ struct GyroControlState {
     bool recentring = false;       // the last switch led away from an end of the range
     std::int32_t n_near_end = 0;   // halves in a row with the piezo near an end of its range; from 512 on again from 4
     bool temperature_known = false;
-    double mean_temperature_c = 0.0;  // running mean over 8192 halves
+    double mean_temperature_c = 0.0;  // running mean
     double piezo_v = 0.0;             // last finite reading
     double temperature_c = 0.0;       // last finite reading
     double up_v = 0.0;                // the moves up and down that were predicted last

@@ -72,6 +72,15 @@ inline constexpr double known_ticks = 40.0;
     return (state.n_ticks > 0.0 || state.has_last) && state.n_ticks < known_ticks;
 }
 
+// Ticks of the mean of w, and those after which it is compared with the slower one: of a settled gyro, of which one in
+// four is learnt from, 2 s of 5 ms. A hundredth of the noise of a half is then left in w.
+inline constexpr double balance_memory_ticks = 100.0;
+inline constexpr std::int64_t halves_a_lesson = 8;
+
+// By which w is led on from tick to tick, so that no even drift is left in it: both at once as quickly as can be
+// without swinging, a double pole at 1 - 1/200.
+inline constexpr double balance_drift_gain = 0.25 / (balance_memory_ticks * balance_memory_ticks);
+
 // One half of balanced light, its means.
 struct BalancedHalf {
     bool is_first = false;   // of its tick
