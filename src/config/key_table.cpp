@@ -60,8 +60,8 @@ const Key table[] = {
      integer<&C::run, &Run::seed>(0, int64_max)},
 
     {"gyro", "fidelity", "",
-     "physics of a simulated gyro: given by [gyro] and [drift], derived from [laser], or the first with leaps from "
-     "event to event",
+     "physics of a simulated gyro: given by [gyro] and [drift], derived from [laser], or the first with "
+     "closed-form steps from event to event",
      choice<&C::gyro, &Gyro::fidelity>(fidelities)},
     {"gyro", "tick_s", "s", "length of a tick: two half-periods of the bias",
      Real{at<&C::gyro, &Gyro::tick_s>, {.min = 1e-6, .max = 10.0}}},
