@@ -69,8 +69,8 @@ void refuse_rate(const config::Config& config, std::string_view what) {
 
 void require_every_half(const config::Config& config, const std::string& log, const std::string& instead) {
     if (config.gyro.fidelity != config::Fidelity::events) return;
-    throw config::ConfigError{
-        fmt::format("gyro.fidelity = \"events\": {} holds every half, and most lie within closed-form steps; {}", log, instead)};
+    throw config::ConfigError{fmt::format(
+        "gyro.fidelity = \"events\": {} holds every half, and most lie within closed-form steps; {}", log, instead)};
 }
 
 }  // namespace zlg::rig

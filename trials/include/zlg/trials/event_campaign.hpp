@@ -4,7 +4,8 @@
 // Unlike gyros are run both ways, by seeds that the two ways do not share. Of every run that is a number: the mean of
 // its switch errors with the sign of the false angle, their mean square, the share of them below the 10th, 50th and
 // 90th percentile of all that live, the mean of their sigma, the drift, its square about the mean, and the same of the
-// angle at the end. Each number has a mean over the runs of either way; z is the normal deviate that is as rare as Welch's t of both.
+// angle at the end. Each number has a mean over the runs of either way; z is the normal deviate that is as rare as
+// Welch's t of both.
 
 #include <array>
 #include <cstdint>
