@@ -10,6 +10,7 @@
 
 #include <zlg/chance/draw.hpp>
 #include <zlg/config/schema.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/numeric/parallel.hpp>
 #include <zlg/recorded/motion.hpp>
 #include <zlg/rig/closed_loop.hpp>
@@ -106,7 +107,7 @@ struct Measure {
 
 // Student's t of d degrees of freedom as the normal deviate that is as rare (Wallace, 1959): to .02 from d = 3 on.
 double normal_of(double t, double d) {
-    const double size = std::sqrt(d * std::log1p(t * t / d)) * (8.0 * d + 1.0) / (8.0 * d + 3.0);
+    const double size = std::sqrt(d * core::maths::log(1.0 + t * t / d)) * (8.0 * d + 1.0) / (8.0 * d + 3.0);
     return std::copysign(size, t);
 }
 
