@@ -15,7 +15,7 @@ namespace {
 
 // Of a stretch that repeats by no chance, by how often two values are equal that are up to 16 samples apart.
 double telling_length(const std::vector<double>& values) {
-    constexpr double shortest = 32.0, rare = 20.7;  // -log(1e-9)
+    constexpr double shortest = 256.0, rare = 20.7;  // -log(1e-9)
     constexpr std::size_t farthest = 16;
     const auto n = static_cast<double>(values.size());
     double equal = 0.0;

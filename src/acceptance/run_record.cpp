@@ -78,7 +78,7 @@ void check_head(const Plan& plan, const std::vector<std::string>& head, const st
     static const std::regex serial{
         R"((?:^|[^a-z])(?:serial(?:[ _]?(?:number|no\.?|nr\.?))?|s/n)\s*[:=;,\t]\s*"?([^\s;,"]+))", std::regex::icase};
     static const std::regex scale{
-        R"((?:scale|lsb|count|pulse)[^0-9]{0,40}([0-9]+(?:[.,][0-9]+)?(?:e[+-]?[0-9]+)?)\s*(?:arc[ -]?sec|"|'')))",
+        R"((?:scale|lsb|count|pulse)[^0-9]{0,40}([0-9]+(?:[.,][0-9]+)?(?:e[+-]?[0-9]+)?)\s*(?:arc[ -]?sec|"|''))",
         std::regex::icase};
     for (const std::string& line : head) {
         std::smatch found;

@@ -23,17 +23,18 @@ Value mean_value(const char* name, const Moments& of, double hours, double step,
 }
 
 // Whether the rotation changes while a switch lasts, gap and settling: the angles of neighbouring stretches of up to 64
-// samples differ by more than white noise of the shortest ones lets them, or a sinusoid swings.
+// samples differ by more than white noise of the shortest ones lets them, or a faster sinusoid swings.
 bool moves(const study::AxisResult& axis) {
-    constexpr std::int64_t of_switch = 64;
+    constexpr int of_switch = 64;
     const auto& points = axis.allan.points;
     const auto unit = [&points](const auto& p) {
         return p.deviation * std::sqrt(p.tau_s) / (points.front().deviation * std::sqrt(points.front().tau_s));
     };
     if (std::ranges::any_of(points, [&](const auto& p) { return p.m <= of_switch && unit(p) > 2.0; })) return true;
     const double third = axis.modes->statistics.rms_arcsec / 3.0;
-    return axis.fit && std::ranges::any_of(axis.fit->terms.sines, [third](const noise::SineTerm& s) {
-               return s.amplitude_arcsec_s > third * 2.0 * std::numbers::pi * s.frequency_hz;
+    return axis.fit && std::ranges::any_of(axis.fit->terms.sines, [&](const noise::SineTerm& s) {
+               return s.frequency_hz * of_switch > axis.rate_hz &&
+                      s.amplitude_arcsec_s > third * 2.0 * std::numbers::pi * s.frequency_hz;
            });
 }
 

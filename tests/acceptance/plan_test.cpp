@@ -55,7 +55,6 @@ TEST(Plan, what_is_wrong_is_named) {
     expect_refused(unit, "[[run]] is missing");
     expect_refused(unit + "[[run]]\nkind = 'static'\n", "files is missing");
     expect_refused(unit + "[[run]]\nfiles = []\nkind = 'static'\n", "names of files");
-    expect_refused(unit + run + run, "already a log of run 1");
     expect_refused(unit + "[[run]]\nfiles = ['a']\nkind = 'still'\n", "'still'; allowed is static, rate_table");
     expect_refused(unit + run + "colour = 'red'\n", "colour");
     expect_refused(unit + run + "[limit]\n", "unknown section");
