@@ -35,6 +35,7 @@ double read_arcsec_s(double tick_s, core::DitherMethod dither) {
     c.gyro.fidelity = config::Fidelity::laser;
     c.gyro.tick_s = tick_s;
     c.gyro.dither = dither;
+    c.laser.beam_power_w = 0.0;               // it would add 0.1 arcsec/s by chance
     c.gyro.readout = config::Readout::phase;  // whole counts would say it to a count in the run
     c.drift.magnetic_arcsec_s = c.drift.magnetic_thermal_arcsec_s = c.drift.nonmagnetic_arcsec_s = 0.0;
     c.motion.kind = config::MotionKind::constant;

@@ -104,7 +104,7 @@ class Calibrate(Simulated):
 
 
 LASER = {"gyro.fidelity": "laser", "drift.magnetic_arcsec_s": 0.0, "drift.magnetic_thermal_arcsec_s": 0.0,
-         "drift.nonmagnetic_arcsec_s": 0.0, "drift.random_walk_arcsec_sqrt_s": 0.0}
+         "drift.nonmagnetic_arcsec_s": 0.0, "drift.random_walk_arcsec_sqrt_s": 0.0, "laser.beam_power_w": 0.0}
 # A slope that is given stays the whole law of the detector: of the laser its own, to four digits.
 STRAIGHT = {"gyro.discriminator_per_lambda": 0.3315}
 

@@ -81,7 +81,8 @@ class GapsOfOneTick(CliTest):
 
     FAST = ["--set", "piezo.slew_v_s=20000", "--set", "piezo.rc_s=3e-4", "--set", "perimeter.miss_lambda=0"]
     # The walk of the measured ticks beside the gap is in the error and not in sigma.
-    NO_WALK = ["--set", "drift.random_walk_arcsec_sqrt_s=0", "--set", "laser.lock_in_left_hz=0", "--set", "laser.lock_in_right_hz=0"]
+    NO_WALK = ["--set", "drift.random_walk_arcsec_sqrt_s=0", "--set", "laser.lock_in_left_hz=0", "--set", "laser.lock_in_right_hz=0",
+               "--set", "laser.beam_power_w=0"]
 
     def switches(self, name, *settings):
         out = self.folder / name

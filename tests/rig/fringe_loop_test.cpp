@@ -81,7 +81,7 @@ TEST(FringeLoop, APlaceIsKnownWhereverThereIsLightAndIsThatOfTheTwin) {
 TEST(FringeLoop, OverATickCountsAndPlacesTurnWithTheGyro) {
     for (const char* fidelity : {"gyro.fidelity=averaged", "gyro.fidelity=laser"}) {
         config::Config c = by_phase({fidelity, "drift.random_walk_arcsec_sqrt_s=0", "laser.lock_in_left_hz=0",
-                                     "laser.lock_in_right_hz=0", "switching.interval_s=100"});
+                                     "laser.lock_in_right_hz=0", "laser.beam_power_w=0", "switching.interval_s=100"});
         const auto halves = advance(c, 4000);
         for (std::size_t h = 801; h + 2 < halves.size(); h += 2) {
             double counted = (halves[h + 2].record.fringe - halves[h].record.fringe) / 65536.0;

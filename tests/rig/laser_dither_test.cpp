@@ -20,6 +20,7 @@ config::Config gyro(double lock_hz, double rate_arcsec_s, core::DitherMethod dit
     c.laser.quadrature = config::Quadrature::x4;
     c.laser.lock_in_left_hz = lock_hz;
     c.laser.lock_in_right_hz = lock_hz;
+    c.laser.beam_power_w = 0.0;  // quantum noise walks more than what lock-in leaves
     c.drift.magnetic_arcsec_s = 0.0;
     c.drift.magnetic_thermal_arcsec_s = 0.0;
     c.drift.nonmagnetic_arcsec_s = 0.0;

@@ -16,6 +16,8 @@ config::Config laser_gyro() {
     config::Config c;
     c.light = twin::equal_light;
     c.gyro.fidelity = config::Fidelity::laser;
+    // With quantum noise even a counter at rest rounds anew, and what a curve leaves has more scatter.
+    c.laser.beam_power_w = 0.0;
     c.motion.kind = config::MotionKind::rest;
     c.switching.interval_s = 1.0;
     return c;
