@@ -93,25 +93,25 @@ void check_dither(const Config& config) {
 }
 
 // What is wrong with points, empty where nothing is.
-std::string fault_of(const std::vector<twin::CoursePoint>& points, std::size_t least) {
+std::string fault_of(const std::vector<twin::CoursePoint>& points, std::size_t least, const char* places) {
     constexpr double most = 1e6, longest_s = 1e9;
     if (points.size() < least) return fmt::format("{} points; allowed are {} or more", points.size(), least);
     for (std::size_t k = 0; k < points.size(); ++k) {
         const twin::CoursePoint& point = points[k];
         if (!(std::abs(point.at_s) <= longest_s) || !(std::abs(point.value) <= most))
-            return fmt::format("point {} is [{}, {}]; allowed are numbers, times up to {:g} s, values up to {:g}",
-                               k + 1, point.at_s, point.value, longest_s, most);
+            return fmt::format("point {} is [{}, {}]; allowed are numbers, {} up to {:g}, values up to {:g}", k + 1,
+                               point.at_s, point.value, places, longest_s, most);
         if (k > 0 && !(point.at_s > points[k - 1].at_s))
-            return fmt::format("point {} is at {} s, the one before at {} s; allowed are rising times", k + 1,
-                               point.at_s, points[k - 1].at_s);
+            return fmt::format("point {} is at {}, the one before at {}; allowed are rising {}", k + 1, point.at_s,
+                               points[k - 1].at_s, places);
     }
     return {};
 }
 
 // Of a file that is not read yet only the name is known.
-void check_course(const char* key, const Course& course, std::size_t least) {
+void check_course(const char* key, const Course& course, std::size_t least, const char* places = "times in s") {
     if (course.points.empty() && !course.path.empty()) return;
-    const std::string fault = fault_of(course.points, least);
+    const std::string fault = fault_of(course.points, least, places);
     if (fault.empty()) return;
     throw ConfigError(fmt::format("{}{}{}: {}", key, course.path.empty() ? "" : " = ", course.path, fault));
 }
@@ -160,6 +160,8 @@ void check_interval_limits(const Gyro& gyro, const Switching& s) {
 }  // namespace
 
 void check_environment(const Config& config) {
+    const Course& table = config.gyro.bias_temperature_table;
+    if (table.is_given()) check_course("gyro.bias_temperature_table", table, 2, "temperatures in C");
     if (config.temperature.profile.is_given()) check_course("temperature.profile", config.temperature.profile, 2);
     const Field& field = config.field;
     const auto wrong = [&](const char* allowed) {

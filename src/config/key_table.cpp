@@ -83,6 +83,10 @@ const Key table[] = {
      Real{at<&C::gyro, &Gyro::temperature_rise_c>, any_finite}},
     {"gyro", "bias_temperature_coefficient_per_c", "1/C", "relative change of the bias frequency with temperature",
      Real{at<&C::gyro, &Gyro::bias_temperature_coefficient_per_c>, {.min = -1.0, .max = 1.0}}},
+    {"gyro", "bias_temperature_table", "C, 1",
+     "pairs [temperature, relative change of the bias frequency], straight between them, even before and after them; "
+     "the processor presumes the line of bias_temperature_coefficient_per_c; unset: so does the gyro",
+     Points{at<&C::gyro, &Gyro::bias_temperature_table>}},
     {"gyro", "light_samples", "", "samples of the light in a half",
      integer<&C::gyro, &Gyro::light_samples>(1, core::max_light_samples)},
     {"gyro", "light_noise_lambda", "lambda", "noise of one light sample, white, as detuning",

@@ -25,6 +25,7 @@ void read_points(config::Course& course, const char* section) {
 }  // namespace
 
 config::Config with_environment(config::Config config) {
+    read_points(config.gyro.bias_temperature_table, "gyro");
     read_points(config.temperature.profile, "temperature");
     if (config.field.kind == config::FieldKind::file) read_points(config.field.course, "field");
     config::check_environment(config);

@@ -73,6 +73,7 @@ std::int64_t run_ticks(const config::Config& config, const twin::Motion& motion)
 
 twin::TwinConfig twin_config(const config::Config& config) {
     check(config);
+    refuse_unread("gyro.bias_temperature_table", config.gyro.bias_temperature_table);
     refuse_unread("temperature.profile", config.temperature.profile);
     if (config.field.kind == config::FieldKind::file) refuse_unread("field.course", config.field.course);
     return {.seed = config.run.seed,

@@ -32,6 +32,7 @@ std::string why_no_leap(const TwinConfig& config) {
     for (const auto& [key, value] : memories)
         if (value != 0.0) return fmt::format("{} = {}", key, value);
     if (config.temperature.profile.is_given()) return "temperature.profile";
+    if (config.gyro.bias_temperature_table.is_given()) return "gyro.bias_temperature_table";
     if (config.field.kind == FieldKind::sine) return "field.kind = \"sine\"";
     if (config.field.kind == FieldKind::file) return "field.kind = \"file\"";
     return {};

@@ -40,6 +40,12 @@ TemperatureSpan temperature_span(const GyroConfig& gyro, const TemperatureConfig
     return {least->value - gyro.reference_temperature_c, most->value - gyro.reference_temperature_c};
 }
 
+double bias_change(const GyroConfig& gyro, double above_reference_c) {
+    const std::span<const CoursePoint> table = gyro.bias_temperature_table.points;
+    return table.empty() ? gyro.bias_temperature_coefficient_per_c * above_reference_c
+                         : between(table, gyro.reference_temperature_c + above_reference_c);
+}
+
 double field_g(const FieldConfig& field, double time_s) {
     switch (field.kind) {
         case FieldKind::none:

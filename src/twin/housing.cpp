@@ -118,9 +118,7 @@ double Housing::above_reference_c() const {
            0.5 * (shock_start_c_ + shock_end_c_);
 }
 
-double Housing::bias_growth() const {
-    return (1.0 + config_.gyro.bias_temperature_coefficient_per_c * above_reference_c()) * coil_ratio();
-}
+double Housing::bias_growth() const { return (1.0 + bias_change(config_.gyro, above_reference_c())) * coil_ratio(); }
 
 double Housing::coil_ratio() const { return bias_ratio(faults_.active(), bias_sign(), start_s(), end_s()); }
 

@@ -36,18 +36,19 @@ constexpr double allowed_edge_rad = 1e-5;
 
 double largest_field_g(const TwinConfig& c) {
     const TemperatureSpan span = temperature_span(c.gyro, c.temperature);
-    const double growth_per_c = c.gyro.bias_temperature_coefficient_per_c;
-    double hottest_c = std::max({0.0, growth_per_c * span.least_c, growth_per_c * span.most_c});
+    const std::span<const CoursePoint> table = c.gyro.bias_temperature_table.points;
+    double hottest = std::max({0.0, bias_change(c.gyro, span.least_c), bias_change(c.gyro, span.most_c)});
+    for (const CoursePoint& point : table) hottest = std::max(hottest, point.value);
     double most = 1.0;  // of the current over its own
     for (const Fault& fault : c.faults) {
-        if (fault.kind == FaultKind::thermal_shock)
-            hottest_c += std::abs(c.gyro.bias_temperature_coefficient_per_c * fault.size);
+        if (fault.kind == FaultKind::thermal_shock && table.empty())
+            hottest += std::abs(c.gyro.bias_temperature_coefficient_per_c * fault.size);
         if (fault.kind == FaultKind::bias_asymmetric) most *= 1.0 + std::abs(fault.size);
     }
     // What 400 deg/s shift the lines by, where that is little.
     const double rotation_hz = 1.44e6 / (c.gyro.scale_arcsec * counts_per_turn(c.laser.quadrature));
     const double rotation_ratio = 0.5 * rotation_hz / (c.laser.zeeman_hz_per_g * c.laser.bias_field_g);
-    return c.laser.bias_field_g * ((1.0 + hottest_c) * most + std::min(0.1, rotation_ratio)) * (1.0 + 1e-9);
+    return c.laser.bias_field_g * ((1.0 + hottest) * most + std::min(0.1, rotation_ratio)) * (1.0 + 1e-9);
 }
 
 // A reversal that would meet its neighbour is none.

@@ -65,6 +65,7 @@ void validate_perimeter(const TwinConfig& c) {
 }
 
 void require_bias_sign(const GyroConfig& gyro, double warmed_c, const char* by) {
+    if (!gyro.bias_temperature_table.points.empty()) return;
     require_within(fmt::format("1 + gyro.bias_temperature_coefficient_per_c * {}", by),
                    1.0 + gyro.bias_temperature_coefficient_per_c * warmed_c, 1e-3, 1e3);
 }
@@ -72,6 +73,8 @@ void require_bias_sign(const GyroConfig& gyro, double warmed_c, const char* by) 
 // A field that warming turns over would turn the sign of the bias with it, which no sign of the commutator says. What
 // thermal shocks come to after each of them, stays; the gyro's own rise may not have begun then, or be over.
 void validate_warmed_bias(const GyroConfig& gyro, std::span<const Fault> in_order) {
+    for (const CoursePoint& point : gyro.bias_temperature_table.points)
+        require_within("1 + a change of gyro.bias_temperature_table", 1.0 + point.value, 1e-3, 1e3);
     const double rise_c = gyro.temperature_rise_c;
     require_bias_sign(gyro, rise_c, "gyro.temperature_rise_c");
     double shocks_c = 0.0;

@@ -51,6 +51,12 @@ class Environment(unittest.TestCase):
             self.refused(["temperature.profile", words, "allowed"], f"temperature.profile={points}")
         self.refused("temperature_rise_c", "temperature.profile=[[0, 20], [1, 21]]", "gyro.temperature_rise_c=0")
 
+    def test_a_table_that_is_none(self):
+        for points, words in (("[[0, 0]]", "1 points"), ("[[0, 0], [0, 1e-3]]", "rising temperatures"), ("[[0, nan], [1, 0]]", "point 1"),
+                              ("[0, 0]", "a pair")):
+            self.refused(["gyro.bias_temperature_table", words, "allowed"], f"gyro.bias_temperature_table={points}")
+        self.refused("gyro.bias_temperature_table", "gyro.bias_temperature_table=[[0, 0], [20, -1]]")
+
     def test_files_that_hold_no_course(self):
         self.refused("nothing.txt", f"temperature.profile={self.folder}/nothing.txt", exit_code=3)
         path = self.folder / "bad.txt"

@@ -101,6 +101,39 @@ TEST(TwinInEnvironment, drifts_by_its_field_and_no_more_by_its_drift) {
     EXPECT_NEAR(counted_arcsec(config, 2001), 0.0, 12.0);
 }
 
+// Mean counts of a half, signs taken off, of a gyro that turns enough to round anew in every half.
+double mean_counts(TwinConfig config, double temperature_c) {
+    config.gyro.bias_temperature_coefficient_per_c = 0.5;  // as its processor presumes
+    config.gyro.bias_temperature_table.points = {{0.0, 0.0}, {20.0, 0.01}, {60.0, -0.03}};
+    config.temperature.profile.points = {{0.0, temperature_c}, {1.0, temperature_c}};
+    Twin twin{config, Motion::sines(1217.3, {})};
+    const auto halves = advance(twin, frame(true, 1), 4001);
+    double sum = 0.0;
+    for (std::size_t h = 1; h < halves.size(); ++h)
+        sum += halves[h].sensor.bias_sign * static_cast<double>(count_between(halves[h - 1], halves[h]));
+    return sum / 4000.0;
+}
+
+TEST(TwinInEnvironment, the_bias_follows_its_table) {
+    const double unchanged = mean_counts(held_gyro(), 0.0);
+    for (const auto& [at_c, change] :
+         {std::pair{-50.0, 0.0}, {10.0, 0.005}, {20.0, 0.01}, {40.0, -0.01}, {90.0, -0.03}})
+        EXPECT_NEAR(mean_counts(held_gyro(), at_c) / unchanged - 1.0, change, 3e-4) << at_c;
+}
+
+TEST(TwinInEnvironment, the_bias_of_a_laser_follows_its_table) {
+    TwinConfig laser = held_gyro();
+    laser.gyro.fidelity = Fidelity::laser;
+    laser.laser.beam_power_w = 0.0;
+    EXPECT_NEAR(mean_counts(laser, 40.0) / mean_counts(laser, 0.0) - 1.0, -0.01, 3e-4);
+}
+
+TEST(TwinInEnvironment, refuses_a_table_that_turns_its_bias_over) {
+    TwinConfig config = ramped_gyro();
+    config.gyro.bias_temperature_table.points = {{0.0, 0.0}, {20.0, -1.0}};
+    EXPECT_THROW((Twin{config, Motion::rest()}), std::invalid_argument);
+}
+
 TEST(TwinInEnvironment, refuses_a_profile_that_its_gyro_cannot_follow) {
     TwinConfig config = ramped_gyro();
     config.gyro.temperature_rise_c = 0.0;

@@ -22,6 +22,10 @@ struct TemperatureSpan {
 };
 [[nodiscard]] TemperatureSpan temperature_span(const GyroConfig& gyro, const TemperatureConfig& temperature);
 
+// Relative change of the bias of a gyro that is so much warmer than at its reference: by its table, straight between
+// the points, or by its coefficient.
+[[nodiscard]] double bias_change(const GyroConfig& gyro, double above_reference_c);
+
 // Gauss.
 [[nodiscard]] double field_g(const FieldConfig& field, double time_s);
 

@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include <zlg/twin/environment_config.hpp>
+
 namespace zlg::twin {
 
 enum class Fidelity {
@@ -40,6 +42,7 @@ struct GyroConfig {
     double reference_temperature_c = 20.0;
     double temperature_rise_c = 20.0;  // T(t) = reference + rise (1 - exp(-t/drift.thermal_time_s))
     double bias_temperature_coefficient_per_c = 0.0;
+    CourseConfig bias_temperature_table;  // C and relative change of the bias, in place of that law; none: that law
     int light_samples = 16;
     double light_noise_lambda = 0.0033;       // of one sample, as detuning
     double discriminator_per_lambda = 0.332;  // (A - B)/(A + B) of the two beams per wavelength of detuning
