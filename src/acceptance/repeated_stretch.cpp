@@ -15,14 +15,14 @@ namespace {
 
 // Of a stretch that repeats by no chance, by how often two values are equal that are up to 16 samples apart.
 double telling_length(const std::vector<double>& values) {
-    constexpr double shortest = 256.0, rare = 20.7;  // -log(1e-9)
+    constexpr double shortest = 256.0, of_counts = 4096.0, rare = 20.7;  // -log(1e-9)
     constexpr std::size_t farthest = 16;
     const auto n = static_cast<double>(values.size());
     double equal = 0.0;
     for (std::size_t k = farthest; k < values.size(); ++k)
         for (std::size_t apart = 1; apart <= farthest; ++apart) equal += values[k] == values[k - apart] ? 1.0 : 0.0;
     if (equal == 0.0) return shortest;
-    return std::max(shortest, std::ceil(2.0 * (2.0 * std::log(n) + rare) / std::log(farthest * n / equal)));
+    return std::max(of_counts, std::ceil(2.0 * (2.0 * std::log(n) + rare) / std::log(farthest * n / equal)));
 }
 
 std::uint64_t bits_of(double value) {

@@ -6,9 +6,9 @@
 
 namespace zlg::acceptance {
 
-// In words, by the samples of the first such stretch of 256 or more, as a motion without noise has shorter ones; empty
-// where there is none that chance would not make: at half the length one in a billion of all pairs would agree, were
-// values independent and as often equal as neighbours are.
+// In words, by the samples of the first such stretch of 256 or more, and of 4096 where neighbours are ever equal, as
+// counts of a steady rotation repeat shorter ones; empty where there is none that chance would not make: at half the
+// length one in a billion of all pairs would agree, were values independent and as often equal as neighbours are.
 //
 // values  NaN where nothing was measured; those are passed over.
 [[nodiscard]] std::string repeated_stretch(std::span<const double> values);

@@ -87,7 +87,8 @@ void check_head(const Plan& plan, const std::vector<std::string>& head, const st
         if (!std::regex_search(start, found, scale)) continue;
         std::string number = found[1];
         std::ranges::replace(number, ',', '.');
-        require_scale(plan, std::strtod(number.c_str(), nullptr), fmt::format("{}, '{}'", path, text::excerpt(line, 60, ' ')));
+        require_scale(plan, std::strtod(number.c_str(), nullptr),
+                      fmt::format("{}, '{}'", path, text::excerpt(line, 60, ' ')));
     }
 }
 

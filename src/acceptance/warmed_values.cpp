@@ -152,7 +152,9 @@ Value settling_of(const RunRecord& record, std::size_t index, double band, std::
     const Settling found = settling_in(course, band);
     if (!(found.latest_s < 0.75 * length_s))
         return not_determined(settling, "needs a longer run: at the end it is not sure that the bias has settled");
-    const double off_s = std::max(found.latest_s - found.seen_s, found.seen_s - found.earliest_s);
+    // Known to the length of a stretch.
+    const double off_s = std::max(found.latest_s - found.seen_s, found.seen_s - found.earliest_s) +
+                         length_s / static_cast<double>(course.size());
     Value v =
         measured(settling, found.seen_s, off_s / z_95, std::numeric_limits<double>::infinity(), length_s / 3600.0);
     v.reason = "last time outside the band about the last quarter of the run";

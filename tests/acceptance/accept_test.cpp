@@ -190,7 +190,7 @@ TEST(Accept, a_stretch_that_stands_twice_is_no_measurement) {
     std::vector<double> coarse = white(20000, 0.5);
     for (double& rate : coarse) rate = std::round(rate);
     EXPECT_TRUE(bias(coarse).determined) << bias(coarse).reason;
-    coarse.insert(coarse.end(), coarse.begin(), coarse.begin() + 2000);
+    coarse.insert(coarse.end(), coarse.begin(), coarse.begin() + 9000);
     EXPECT_NE(bias(coarse).reason.find("once more"), std::string::npos);
 }
 

@@ -209,7 +209,7 @@ class Accept(CliTest):
         self.assertIn("samples are missing", self.judged(plan, 1)[1]["bias.deg_h"]["reason"])
         for column, why in [(lambda value: value + 0.1, "switches detuning_lambda does not settle"), (lambda value: 0.001, "absent or one value throughout")]:
             rows = [line.split(",") for line in whole[first:]]
-            for row in rows:
+            for row in rows[len(rows) // 2 if "settle" in why else 0:]:
                 row[at] = repr(column(float(row[at])))
             raw.write_text("\n".join(whole[:first] + [",".join(row) for row in rows]) + "\n")
             relock = self.judged(self.plan([f'files = ["{raw.name}"]\nkind = "switching"\n']), 1)[1]["relock.s"]
