@@ -142,7 +142,7 @@ std::string allowed_text(const Key& key) {
             },
             [](const Interval& s) { return fmt::format("{}, or \"optimal\"", in_words(s.range)); },
             [](const Choice& s) { return fmt::format("\"{}\"", fmt::join(s.names.begin(), s.names.end(), "\", \"")); },
-            [](const Points&) { return std::string{"[[time, value], ...] in rising times, or the path of a file"}; },
+            [](const Points&) { return std::string{"pairs [[x, y], ...] with rising x, or the path of a file"}; },
             [](const Column& s) { return fmt::format("a number {}..1000000, or a name", s.may_be_none ? 0 : 1); }},
         key.slot);
 }
