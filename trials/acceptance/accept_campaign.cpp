@@ -178,7 +178,8 @@ bool keeps(int n, int wrong, double risk) {
 // Mean square of n normal numbers, beyond which one in 1000 lies on that side (Wilson and Hilferty, 1931).
 double chance_of(int n, double side) {
     const double part = 2.0 / (9.0 * n);
-    return std::pow(std::max(0.0, 1.0 - part + 3.09 * side * std::sqrt(part)), 3);
+    const double root = std::max(0.0, 1.0 - part + 3.09 * side * std::sqrt(part));
+    return root * root * root;
 }
 
 }  // namespace
