@@ -117,7 +117,7 @@ private:
     // A measurement under two names, or in two runs of one kind, would agree with itself too well.
     void require_new(const RunRecord& record) {
         for (const LogRecord& log : record.logs)
-            if (!seen_.emplace(record.run->kind, log.checksum).second)
+            if (!seen_.emplace(is_still(record.run->kind) ? RunKind::at_rest : record.run->kind, log.checksum).second)
                 throw logs::FormatError(fmt::format("{}: {} is in the plan once more; each measurement counts once",
                                                     record.run->place, log.path));
     }

@@ -111,10 +111,10 @@ config::Config log_config(const Plan& plan, const config::Config& said, const lo
     return config;
 }
 
-// Values that may be no measurements, and holes, stop the verdicts. The gap of a switch, of up to 32 samples, is none.
+// Values that may be no measurements, and holes, stop the verdicts. The gap of a switch is none.
 void look_at(const study::AxisRecord& axis, const std::string& path, RunRecord& record) {
     add(record.stops, path, axis.warnings);
-    const std::size_t of_switch = axis.mode.empty() ? 0 : 32;
+    const std::size_t of_switch = axis.mode.empty() ? 0 : core::max_estimated_gap;
     std::size_t missing = 0, gap = 0;
     for (const double rate : axis.rates_arcsec_s) {
         gap = std::isfinite(rate) ? 0 : gap + 1;

@@ -37,8 +37,8 @@ double mean_over(const std::vector<double>& values, double from, double to) {
     return sum / known;
 }
 
-// Of a switched gyro its non-magnetic part, segment by segment; else means over 128 equal stretches. The temperature,
-// where it was measured, is the mean around each.
+// Of a switched gyro its non-magnetic part, by three segments each; else means over 128 equal stretches. The
+// temperature, where it was measured, is the mean around each.
 std::vector<Point> course_of(const study::AxisRecord& axis) {
     constexpr double n_stretches = 128.0;
     const double length_s = static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz;
@@ -48,7 +48,9 @@ std::vector<Point> course_of(const study::AxisRecord& axis) {
         const noise::ModeSplit split = noise::split_modes(
             {.rate_hz = axis.rate_hz, .rates_arcsec_s = axis.rates_arcsec_s, .bridged_arcsec_s = {}, .mode = axis.mode},
             20);
-        for (const noise::ModePoint& p : split.points) course.push_back({p.time_s, p.nonmagnetic_arcsec_s, 0.0});
+        // Each is made of three segments: only every third is one of its own.
+        for (std::size_t k = 1; k < split.points.size(); k += 3)
+            course.push_back({split.points[k].time_s, split.points[k].nonmagnetic_arcsec_s, 0.0});
         if (course.size() > 1) apart_s = course[1].time_s - course[0].time_s;
     }
     const auto around = [&](const std::vector<double>& values, double time_s) {
@@ -140,12 +142,7 @@ std::array<Value, 2> temperature_of(const RunRecord& record, std::size_t index, 
 
 // Time from the start until the bias stays within the band about its end.
 Value settling_of(const RunRecord& record, std::size_t index, double band, std::vector<report::Figure>& figures) {
-    std::vector<Point> course = course_of(record.axes[index]);
-    if (!record.axes[index].mode.empty()) {
-        // Each is made of three segments: only every third is one of its own.
-        std::size_t k = 0;
-        std::erase_if(course, [&k](const Point&) { return k++ % 3 != 1; });
-    }
+    const std::vector<Point> course = course_of(record.axes[index]);
     if (course.size() < 16) return not_determined(settling, "needs 16 means over the run");
     figures.push_back(course_figure(record, index, course, "Warming", false));
     const double length_s = course.back().time_s;

@@ -8,6 +8,7 @@
 #include <zlg/chance/draw.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/numeric/parallel.hpp>
+#include <zlg/rig/closed_loop.hpp>
 
 #include "search.hpp"
 #include "verdict.hpp"
@@ -104,7 +105,7 @@ private:
         Evaluation drawn{any, {}};
         for (std::int64_t k = 0; k < r_.gyros; ++k) {
             try {
-                (void)fresh.gyro(k, any);
+                (void)rig::ClosedLoop{fresh.gyro(k, any), twin::Motion::rest()};
                 drawn.trials.push_back({.state = TrialState::untried});
             } catch (const config::ConfigError& error) {
                 drawn.trials.push_back({.state = TrialState::refused, .reason = error.what()});

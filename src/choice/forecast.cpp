@@ -28,10 +28,6 @@ double share_within(double limit, double mean, double variance) {
     return 0.5 * (std::erf((limit - mean) * scale) + std::erf((limit + mean) * scale));
 }
 
-bool leaves_unknown(const Method& m) {
-    return m.magnetic == core::MagneticMethod::estimate || m.schedule == config::Schedule::measured;
-}
-
 }  // namespace
 
 double first_switch_s(const Candidate& c) {
@@ -83,6 +79,11 @@ SwitchLaw Forecast::learnt(std::int64_t number, const Method& method) const {
     }
 }
 
+bool Forecast::leaves_unknown(const Candidate& c) const {
+    return (c.method.magnetic == core::MagneticMethod::estimate || c.method.schedule == config::Schedule::measured) &&
+           switches_until(population_.requirement().run_s, c) > 0;
+}
+
 const std::vector<SwitchLaw>& Forecast::laws(const Method& m) {
     std::vector<SwitchLaw>& found = laws_[{m.relock, m.bridge, m.reading, m.tick_s}];
     if (!found.empty()) return found;
@@ -111,7 +112,7 @@ const std::vector<Forecast::Gyro>& Forecast::gyros(const Method& method) {
 Parts Forecast::parts_of(const Gyro& gyro, const SwitchLaw& law, const Candidate& c) const {
     const double run_s = population_.requirement().run_s;
     const std::int64_t m = switches_until(run_s, c);
-    const double magnetic = leaves_unknown(c.method) ? 0.0 : magnetic_angle_arcsec(gyro.drift, run_s, c);
+    const double magnetic = magnetic_angle_arcsec(gyro.drift, run_s, c);
     return {.magnetic = magnetic * magnetic,
             .switches = m == 0 ? 0.0 : static_cast<double>(m) * law.rms_arcsec * law.rms_arcsec,
             .alternating = m == 0 ? 0.0 : law.alternating_arcsec * law.alternating_arcsec,
@@ -133,9 +134,10 @@ std::vector<Parts> Forecast::all_parts(const Candidate& candidate) {
 double Forecast::chance(const Candidate& candidate, double rms_ratio) {
     const double limit = population_.requirement().limit_arcsec();
     const std::vector<Parts> all = all_parts(candidate);
+    const bool is_unknown = leaves_unknown(candidate);
     double sum = 0.0;
     for (const Parts& p : all)
-        sum += share_within(limit, std::sqrt(p.magnetic) + std::sqrt(p.alternating),
+        sum += share_within(limit, (is_unknown ? 0.0 : std::sqrt(p.magnetic)) + std::sqrt(p.alternating),
                             p.switches * rms_ratio * rms_ratio + p.walk + p.rounding);
     return all.empty() ? 0.0 : sum / static_cast<double>(all.size());
 }

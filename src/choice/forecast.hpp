@@ -7,7 +7,7 @@
 // alternating mean of their errors by a short trial, W the random walk, K the worth of a count. The false angle a is
 // there after every odd switch and taken back by the next: a run that ends half an interval sooner or later ends with
 // it, so that it counts after an even number of switches too. What a schedule that measures and the estimate of the
-// magnetic drift leave of M no closed form says: it is taken for nothing, so that only trials discard them.
+// magnetic drift leave of M no closed form says: for them M is 0 where it would discard, and whole where it ranks.
 
 #include <map>
 #include <tuple>
@@ -52,7 +52,11 @@ public:
     // rms_ratio  by which the errors of the switches are taken.
     [[nodiscard]] double chance(const Candidate& candidate, double rms_ratio = 1.0);
 
+    // Of the magnetic drift what a fixed schedule without an estimate leaves.
     [[nodiscard]] Parts parts(const Candidate& candidate);
+
+    // Whether less of it is left, which no closed form says.
+    [[nodiscard]] bool leaves_unknown(const Candidate& candidate) const;
 
     // Of one gyro of this method: rms of a switch over the gyros that were tried.
     [[nodiscard]] double switch_rms_arcsec(const Method& method);

@@ -19,9 +19,10 @@ std::vector<Part> parts_of(Forecast& forecast, const Answer& answer) {
     const Candidate& c = answer.proof.candidate;
     Parts parts = forecast.parts(c);
     const double rms = answer.proof.rms_arcsec();
-    if (rms > 0.0 &&
-        (c.method.magnetic == core::MagneticMethod::estimate || c.method.schedule == config::Schedule::measured))
+    if (rms > 0.0 && forecast.leaves_unknown(c)) {
+        parts.magnetic = 0.0;
         parts.magnetic = std::max(0.0, rms * rms - parts.sum());
+    }
     return {{"magnetic drift", std::sqrt(parts.magnetic)},
             {"switch errors", std::sqrt(parts.switches)},
             {"false angle that the next switch takes back", std::sqrt(parts.alternating)},
@@ -75,7 +76,9 @@ std::string interval_reason(const Requirement& r, const Answer& answer) {
     const Candidate& c = answer.proof.candidate;
     const Evaluation* longer = nullptr;
     for (const Evaluation& e : answer.tried)
-        if (e.candidate.method == c.method && e.candidate.interval_s > c.interval_s) longer = &e;
+        if (e.candidate.method == c.method && e.candidate.interval_s > c.interval_s &&
+            (longer == nullptr || e.candidate.interval_s < longer->candidate.interval_s))
+            longer = &e;
     const std::string start = fmt::format("Interval {} s{}: ", short_number(c.interval_s),
                                           c.first_segment == config::FirstSegment::half
                                               ? " with a half first segment, so that the sawtooth runs about its mean"
@@ -122,6 +125,9 @@ std::vector<std::string> reasons_of(const Requirement& r, const std::vector<std:
     if (answer.met) {
         all = addition_reasons(r, answer);
         all.insert(all.begin(), interval_reason(r, answer));
+    } else if (std::ranges::any_of(answer.proof.trials,
+                                   [](const Trial& t) { return t.state == TrialState::untried; })) {
+        all.push_back("Half of the gyros or more are none by the tolerances, whatever is chosen: nothing was tried.");
     } else {
         all.push_back(
             "Of all methods and intervals this one leaves the least error, by the closed forms and by trials.");

@@ -65,7 +65,6 @@ void validate_perimeter(const TwinConfig& c) {
 }
 
 void require_bias_sign(const GyroConfig& gyro, double warmed_c, const char* by) {
-    if (!gyro.bias_temperature_table.points.empty()) return;
     require_within(fmt::format("1 + gyro.bias_temperature_coefficient_per_c * {}", by),
                    1.0 + gyro.bias_temperature_coefficient_per_c * warmed_c, 1e-3, 1e3);
 }

@@ -163,5 +163,5 @@ class Package(unittest.TestCase):
             links = [page.parent / link for link in re.findall(r"\]\((?!https?:)([^)#:\s]+)", text)]
             named = [root / name for name in re.findall(r"examples/\w+(?:\.\w+)?", text)]
             missing |= {str(path.resolve().relative_to(root.resolve())) for path in links + named if not path.exists()}
-        # In a Debian package the licence stands in the file copyright; of the tests the package holds nothing.
-        self.assertEqual(missing, {"LICENSE", "tests/regressions.md"})
+        # In a Debian package the licence stands in the file copyright.
+        self.assertEqual(missing, {"LICENSE"})
