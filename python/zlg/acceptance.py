@@ -48,7 +48,6 @@ class Acceptance(Shown):
     #: serial, type, ... as the plan has them
     unit: dict[str, Any]
     risk: float
-    #: that a unit which passes all limits lies beyond one
     #: that a unit which passes lies beyond one of the limits; None: it does not pass
     unit_risk: Optional[float]
     quantities: list[Quantity]

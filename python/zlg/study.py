@@ -136,7 +136,7 @@ def run(
     """The main experiment: a gyro that switches modes, every compensation on the same records, and the gyro in one mode.
 
     config  default: an hour of the paper's gyro.
-    raw, angles, page  what to keep beside the figures; angles, unless it is said, of a gyro that lives every half.
+    raw, angles, page  what to keep beside the figures; angles, unless it is said, of a gyro that is simulated half by half.
     Raises ConfigError, of fidelity "events" where a log is asked for, IoError and FormatError for a motion file.
     """
     used, contradictions = resolved(config)

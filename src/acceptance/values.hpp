@@ -22,8 +22,6 @@ struct StillAxis {
 };
 
 // Bias, its repeatability, and the terms of the noise of the longest record.
-//
-// stops  gets a line where the Earth turns the wrong way.
 [[nodiscard]] std::vector<Value> still_values(const Plan& plan, const std::vector<StillAxis>& axes);
 
 // The mean of one quantity over runs. Where they differ by more than their own noise explains (chi-square), their

@@ -79,6 +79,17 @@ TEST(Choose, what_cannot_be_met_names_the_least_that_can) {
     EXPECT_FALSE(a.binding.empty());
 }
 
+TEST(Search, without_a_switch_nothing_takes_the_magnetic_drift_out) {
+    // A measuring schedule and the estimate leave all of it then, so that the best of all have switches.
+    const Requirement r = parse_requirement(
+        "[require]\nrun_s = 40\ngyros = 8\nangle_error_arcsec = 0.1\n[drift]\nmagnetic_arcsec_s = 1.0\n", "r.toml");
+    const Task task{.requirement = r, .threads = 1};
+    const Population gyros{r, 1, 8};
+    Forecast forecast{gyros, 1, {}};
+    Search search{task, forecast, gyros};
+    for (const Candidate& c : search.best(4)) EXPECT_LT(c.interval_s, 40.0) << in_words(c);
+}
+
 // Without a magnetic drift and a switch the walk is most of the error: N(0, W^2 t).
 Requirement of_walk_alone(double limit_arcsec, int gyros) {
     return parse_requirement(

@@ -278,6 +278,8 @@ class Accept(CliTest):
         self.assertIn("once more", self.refusal(3, self.plan([self.static(log, again)])))
         self.assertIn("once more", self.refusal(3, self.plan([self.static(log), self.static(again)])))
         self.assertIn("once more", self.refusal(3, self.plan([self.static(log, log)])))
+        switching = self.static(log).replace("static", "switching")
+        self.assertIn("once more", self.refusal(3, self.plan([self.static(log), switching])))
         self.assertIn("no run of the plan gives it", self.refusal(2, self.plan([self.static(log)], '"scale_factor.ppm" = { max = 1 }\n')))
         self.assertIn("given in deg/h", self.refusal(2, self.plan([self.static(log)], '"bias.rad_s" = { max = 1 }\n')))
         self.assertIn("cannot", self.refusal(3, self.plan([self.static(self.at("none.csv"))])))

@@ -103,7 +103,7 @@ TEST(TwinInEnvironment, drifts_by_its_field_and_no_more_by_its_drift) {
 
 // Mean counts of a half, signs taken off, of a gyro that turns enough to round anew in every half.
 double mean_counts(TwinConfig config, double temperature_c) {
-    config.gyro.bias_temperature_coefficient_per_c = 0.5;  // as its processor presumes
+    config.gyro.bias_temperature_coefficient_per_c = 0.005;  // as its processor presumes
     config.gyro.bias_temperature_table.points = {{0.0, 0.0}, {20.0, 0.01}, {60.0, -0.03}};
     config.temperature.profile.points = {{0.0, temperature_c}, {1.0, temperature_c}};
     Twin twin{config, Motion::sines(1217.3, {})};

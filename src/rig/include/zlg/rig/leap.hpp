@@ -1,9 +1,9 @@
 #pragma once
-// From event to event: what control and compensation are after halves that they have not lived.
+// From event to event: what control and compensation are after halves that were not simulated one by one.
 //
 // A quiet half, with the loop locked and nothing wrong, leaves the control as it was but for its clocks, the slow means
 // that follow warming and light, and what a digital loop has followed; and the compensation but for its clock, the
-// angle, the filter of the magnetic drift and what it learns of the motion. Around every event all halves are lived.
+// angle, the filter of the magnetic drift and what it learns of the motion. Around every event halves are simulated one by one.
 
 #include <cstdint>
 #include <string>
@@ -16,7 +16,7 @@
 
 namespace zlg::rig {
 
-// How many ticks are lived around an event.
+// How many ticks around an event are simulated half by half.
 struct LeapPlan {
     std::int64_t start_ticks = 0;   // from the start
     std::int64_t after_ticks = 0;   // in a row, closed and valid, before the first leap
@@ -26,7 +26,7 @@ struct LeapPlan {
     twin::DetuningNoise noise{};    // of a digital loop
 };
 
-// start   the balance of the light is a mean over 400 ticks (light_balance.hpp), twice as long lived; by phase five
+// start   the balance of the light is a mean over 400 ticks (light_balance.hpp), and twice as long is simulated; by phase five
 //         times, in which the ellipse is learnt again and again
 // after   the longest window behind a gap, twelve time constants of the loop for what its miss leaves, and the ticks in
 //         which a half of it is still judged or corrected
@@ -37,7 +37,7 @@ struct LeapPlan {
 [[nodiscard]] LeapPlan leap_plan(const config::Config& config, const core::GyroControlConfig& control,
                                  const core::GyroCompensationConfig& compensation, const twin::Motion& motion);
 
-// Why a gyro of fidelity `events` lives every half; empty where it leaps.
+// Why every half of a gyro of fidelity `events` is simulated; empty where it takes closed-form steps.
 [[nodiscard]] std::string why_lived(const config::Config& config, const twin::Motion& motion);
 
 // The tick before which the loop opens next, if the control stays quiet in its mode; 2^62 where none is due.
