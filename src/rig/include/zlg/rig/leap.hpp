@@ -3,7 +3,8 @@
 //
 // A quiet half, with the loop locked and nothing wrong, leaves the control as it was but for its clocks, the slow means
 // that follow warming and light, and what a digital loop has followed; and the compensation but for its clock, the
-// angle, the filter of the magnetic drift and what it learns of the motion. Around every event halves are simulated one by one.
+// angle, the filter of the magnetic drift and what it learns of the motion. Around every event halves are simulated one
+// by one.
 
 #include <cstdint>
 #include <string>
@@ -26,7 +27,8 @@ struct LeapPlan {
     twin::DetuningNoise noise{};    // of a digital loop
 };
 
-// start   the balance of the light is a mean over 400 ticks (light_balance.hpp), and twice as long is simulated; by phase five
+// start   the balance of the light is a mean over 400 ticks (light_balance.hpp), and twice as long is simulated; by
+// phase five
 //         times, in which the ellipse is learnt again and again
 // after   the longest window behind a gap, twelve time constants of the loop for what its miss leaves, and the ticks in
 //         which a half of it is still judged or corrected
