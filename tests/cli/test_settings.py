@@ -1,6 +1,6 @@
 """zlg settings: what the gyro's processor stores, from a configuration; and what is refused before any gyro hears of it.
 
-That the image runs by it is tested in tests/processor/settings_test.cpp, that the line brings it in tests/firmware/test_wire.py.
+That the image runs by it is tested in tests/processor/settings_test.cpp, that the line brings it in tests/firmware/test_kept_settings.py.
 """
 
 import json
