@@ -38,8 +38,8 @@ TEST(Stored, are_the_settings_of_this_program) {
     EXPECT_EQ(settings_in(stored.bytes).compensation.gyro.tick, core::Seconds{0.004});
 }
 
-// Whatever lay where the settings were made. Clang 14 knows no way to clear padding: what it builds loads into a gyro as
-// well, but two files of the same settings may differ in bytes that nobody reads.
+// Whatever lay where the settings were made. Clang 14 knows no way to clear padding: what it builds loads into a gyro
+// as well, but two files of the same settings may differ in bytes that nobody reads.
 TEST(Stored, are_the_same_bytes_for_the_same_settings) {
 #if !__has_builtin(__builtin_clear_padding)
     GTEST_SKIP() << "this compiler clears no padding";
