@@ -38,17 +38,16 @@ TEST(Stored, are_the_settings_of_this_program) {
     EXPECT_EQ(settings_in(stored.bytes).compensation.gyro.tick, core::Seconds{0.004});
 }
 
+#if __has_builtin(__builtin_clear_padding)
 // Whatever lay where the settings were made. Clang 14 knows no way to clear padding: what it builds loads into a gyro
 // as well, but two files of the same settings may differ in bytes that nobody reads.
 TEST(Stored, are_the_same_bytes_for_the_same_settings) {
-#if !__has_builtin(__builtin_clear_padding)
-    GTEST_SKIP() << "this compiler clears no padding";
-#endif
     alignas(Settings) std::array<std::byte, sizeof(Settings)> other{};
     other.fill(std::byte{0xa5});
     const auto* const settings = ::new (&other) Settings{of_a_gyro()};
     EXPECT_EQ(Bytes{*settings}.bytes, Bytes{of_a_gyro()}.bytes);
 }
+#endif
 
 RC_GTEST_PROP(Stored, are_refused_with_any_bit_changed, ()) {
     Bytes stored{of_a_gyro()};
