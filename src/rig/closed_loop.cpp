@@ -106,7 +106,7 @@ std::int64_t ClosedLoop::quiet_ticks(std::int64_t most_halves) {
     return std::min(event - plan_->before_ticks, most_halves / 2);
 }
 
-std::optional<Leap> ClosedLoop::leap(std::int64_t most_halves) {
+std::optional<Leap> ClosedLoop::leap(std::int64_t most_halves, std::int64_t longest_ticks) {
     const std::int64_t quiet = quiet_ticks(most_halves);
     if (quiet < least_ticks) return {};
     if (piece_ticks_ == 0) {
@@ -117,7 +117,7 @@ std::optional<Leap> ClosedLoop::leap(std::int64_t most_halves) {
     const bool singly = plan_->all_singly || quiet <= learn_ticks_;
     std::int64_t ticks = std::min(singly ? std::min(quiet, most_single_ticks) : quiet - learn_ticks_,
                                   std::max(piece_ticks_, least_ticks));
-    ticks = std::min(ticks, twin_.even_halves() / 2);
+    ticks = std::min({ticks, twin_.even_halves() / 2, std::max(longest_ticks, least_ticks)});
     const core::PiezoRange& range = control_config_.loop.range;
     // The warming moves the piezo in one direction: where it ends, it is nearest to an end of the range.
     while (ticks > 0 && near_end(range, core::Volts{twin_.voltage_after(2 * ticks)})) ticks /= 2;

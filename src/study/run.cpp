@@ -97,6 +97,7 @@ public:
     void report(RunResult& result) const {
         for (const Variant& v : variants_) result.variants.push_back(v.result());
         if (is_wanted(task_.variants, magnetic_estimate)) take_out_magnetic(result);
+        add_bridge_quadratic(result);
         result.fingerprint = fingerprint_.text();
         result.health_raised = health_raised_;
         result.invalid_ticks = invalid_ticks_;
@@ -125,6 +126,13 @@ private:
             result.magnetic_estimate = std::move(*found);
             result.variants.erase(found);
         }
+    }
+
+    void add_bridge_quadratic(RunResult& result) const {
+        if (!is_wanted(task_.variants, bridge_quadratic) || !is_wanted(task_.variants, relock_detuning)) return;
+        VariantResult same = *std::ranges::find(result.variants, relock_detuning, &VariantResult::name);
+        same.name = bridge_quadratic;
+        result.variants.insert(result.variants.end() - 1, std::move(same));
     }
 
     static core::AngleSample stepped(Variant& v, std::int64_t tick, const rig::LoopHalf& second,
@@ -251,9 +259,11 @@ std::optional<std::string> lived_after_all(const config::Config& config, const t
     return fmt::format("gyro.fidelity = \"events\": the whole run is simulated half by half, for {}", why);
 }
 
-// The same gyro without switching: its error is what switching is to remove.
+// The same gyro without switching: its error is what switching is to remove. It is a run of its own in any case, so
+// what is quiet in it is leapt over, by the same leaps whether a figure is asked for or not.
 VariantResult one_mode(const RunTask& task, const twin::Motion& motion, std::int64_t ticks) {
-    const config::Config unswitched = rig::without_switching(task.config);
+    config::Config unswitched = rig::without_switching(task.config);
+    if (unswitched.gyro.fidelity == config::Fidelity::averaged) unswitched.gyro.fidelity = config::Fidelity::events;
     rig::ClosedLoop loop{unswitched, motion};
     Variant variant{
         "one_mode", "the same gyro, never switched",
@@ -265,7 +275,7 @@ VariantResult one_mode(const RunTask& task, const twin::Motion& motion, std::int
         variant.meter.take(row, {truth[static_cast<std::size_t>(row.tick) % truth.size()], 0.0}, no_windows);
     };
     for (std::int64_t tick = 0; tick < ticks; ++tick) {
-        if (const auto leap = loop.leap(2 * (ticks - tick))) {
+        if (const auto leap = loop.leap(2 * (ticks - tick), ticks / curve_points)) {
             const double arcsec = variant.replay.leap(*leap, take);
             variant.meter.leap(leap->ticks(), arcsec - leap->dtheta_arcsec);
             tick += leap->ticks() - 1;

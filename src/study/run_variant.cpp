@@ -20,7 +20,7 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride,
         Choice{"switching", "switched; gaps and re-lock as read", RelockMethod::none, BridgeMethod::none},
         Choice{"relock_frequency", "re-lock by bias frequency, gap by quadratic", RelockMethod::frequency,
                BridgeMethod::quadratic},
-        Choice{"relock_detuning", "re-lock by detuning, gap by quadratic", RelockMethod::detuning,
+        Choice{relock_detuning, "re-lock by detuning, gap by quadratic", RelockMethod::detuning,
                BridgeMethod::quadratic},
         Choice{"relock_mean_square", "re-lock by mean square detuning, gap by quadratic", RelockMethod::mean_square,
                BridgeMethod::quadratic},
@@ -28,7 +28,7 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride,
                BridgeMethod::constant},
         Choice{"bridge_linear", "re-lock by detuning, gap by straight line", RelockMethod::detuning,
                BridgeMethod::linear},
-        Choice{"bridge_quadratic", "re-lock by detuning, gap by quadratic", RelockMethod::detuning,
+        Choice{bridge_quadratic, "re-lock by detuning, gap by quadratic", RelockMethod::detuning,
                BridgeMethod::quadratic},
     };
     // The named variants are the paper's, with its points; only the last takes those of the configuration.
@@ -47,7 +47,8 @@ std::vector<Variant> variants(const config::Config& config, std::int64_t stride,
                        ErrorMeter{config.gyro.tick_s, stride, RunDrift{config}}});
     };
     for (const Choice& c : choices)
-        if (is_wanted(wanted, c.name)) add(paper, c);
+        if (is_wanted(wanted, c.name) && !(c.name == bridge_quadratic && is_wanted(wanted, relock_detuning)))
+            add(paper, c);
     const RelockMethod relock = rig::asked_relock(config);
     const BridgeMethod bridge = config.compensation.bridge;
     if (config.compensation.magnetic != core::MagneticMethod::estimate && is_wanted(wanted, magnetic_estimate))

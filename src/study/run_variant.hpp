@@ -16,6 +16,9 @@
 namespace zlg::study {
 
 inline constexpr const char* magnetic_estimate = "magnetic_estimate";
+// One compensation, that the paper compares twice: with other corrections of the re-lock, and with other bridges.
+inline constexpr const char* relock_detuning = "relock_detuning";
+inline constexpr const char* bridge_quadratic = "bridge_quadratic";
 
 // One compensation of the records, with its error meter.
 struct Variant {
@@ -45,7 +48,7 @@ struct Variant {
 }
 
 // Of the wanted ones those that the paper compares, magnetic_estimate unless the configuration is that, and last the
-// configured one in any case. stride: as of ErrorMeter.
+// configured one in any case; bridge_quadratic only without relock_detuning. stride: as of ErrorMeter.
 [[nodiscard]] std::vector<Variant> variants(const config::Config& config, std::int64_t stride,
                                             const std::optional<std::vector<std::string>>& wanted);
 

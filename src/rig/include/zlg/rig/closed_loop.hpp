@@ -2,6 +2,7 @@
 // The loop of twin and control, one half-period at a time.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include <zlg/config/config.hpp>
@@ -35,9 +36,13 @@ public:
 
     LoopHalf advance();
 
-    // Of fidelity `events`, where it is quiet here and the next event is far: a leap towards it, of at most so many
-    // halves. To be asked before each tick, until there is none; then a tick is to be lived.
-    std::optional<Leap> leap(std::int64_t most_halves);
+    // Of fidelity `events`, where it is quiet here and the next event is far: a leap towards it. To be asked before
+    // each tick, until there is none; then a tick is to be lived.
+    //
+    // most_halves    until the end of the run.
+    // longest_ticks  of a single leap: points of the error in time.
+    std::optional<Leap> leap(std::int64_t most_halves,
+                             std::int64_t longest_ticks = std::numeric_limits<std::int64_t>::max());
 
     // The light samples of the half before, until the next `advance`.
     [[nodiscard]] core::LightSamples light() const;
