@@ -75,26 +75,17 @@ Figure spectrum_figure(const View& v) {
 
 // How the noise of a few bands goes on with time: a spectrogram whose numbers can be read.
 Figure bands_figure(const View& v) {
-    const auto& g = v.axis.spectrogram;
     Figure f = report::blank_figure(
         v.id("bands"), fmt::format("Noise in time of {}", v.axis.name),
         "The spectrogram in bands: root of the density, averaged over each band, piece by piece. A "
         "break is a piece of which too little was measured.",
         "time, s", fmt::format("{}/sqrt(Hz)", v.unit()));
     f.log_y = true;
-    constexpr std::size_t n_bands = 4;
-    const std::size_t n = g.frequency_hz.size();
-    for (std::size_t b = 0; b < n_bands; ++b) {
-        // Bands of two octaves, down from half the rate; the last one takes all the rest.
-        const std::size_t to = n >> (2 * b), from = b + 1 == n_bands ? 0 : n >> (2 * b + 2);
-        if (to <= from) continue;
-        Series s = blank_series(
-            fmt::format("{} to {} Hz", short_number(g.frequency_hz[from]), short_number(g.frequency_hz[to - 1])));
-        for (std::size_t t = 0; t < g.time_s.size(); ++t) {
-            double sum = 0.0;
-            for (std::size_t k = from; k < to; ++k) sum += g.density[t * n + k];
-            add_point(s, g.time_s[t], v.shown(std::sqrt(sum / static_cast<double>(to - from))));
-        }
+    for (const NoiseBand& band : v.axis.bands) {
+        if (band.density.empty()) continue;
+        Series s = blank_series(fmt::format("{} to {} Hz", short_number(band.from_hz), short_number(band.to_hz)));
+        for (std::size_t t = 0; t < band.density.size(); ++t)
+            add_point(s, v.axis.band_time_s[t], v.shown(std::sqrt(band.density[t])));
         f.series.push_back(report::thin(s, max_points));
     }
     return f;

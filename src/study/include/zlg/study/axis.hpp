@@ -38,6 +38,13 @@ struct TimeBin {
     double mean_arcsec_s = 0.0;  // NaN: a gap
 };
 
+// How the noise of a band of frequencies goes on with time.
+struct NoiseBand {
+    double from_hz = 0.0;
+    double to_hz = 0.0;
+    std::vector<double> density;  // mean over the band, one-sided, (arcsec/s)^2/Hz; NaN where too little is known
+};
+
 struct Gap {
     double from_s = 0.0;
     double to_s = 0.0;
@@ -74,8 +81,9 @@ struct AxisResult {
     std::vector<TimeBin> time_bins;  // empty without a page, as the spectra are
     std::vector<Gap> gaps;           // the first `max_gaps`
     noise::Spectrum spectrum;
-    noise::Spectrum spectrum_left;  // without sinusoids, and the magnetic part, where there are any
-    noise::Spectrogram spectrogram;
+    noise::Spectrum spectrum_left;    // without sinusoids, and the magnetic part, where there are any
+    std::vector<double> band_time_s;  // of the densities of each band
+    std::vector<NoiseBand> bands;
     bool is_error = false;              // as of its record
     std::vector<std::string> warnings;  // as of its record
 };
