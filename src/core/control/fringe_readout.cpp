@@ -42,9 +42,10 @@ constexpr std::int32_t offset_debounce = 8;
 constexpr std::int32_t offset_debounce_after_gap = 2;
 constexpr std::int32_t forgets_after_halves = 1024;  // 2.6 s without a fringe: the photodiodes have changed
 
-// Blocks of 128 samples, evenly over the octants, in each of which d is spread over 1/8 turn: a block has the skew to
-// 1/8/sqrt(12*128) = 0.003 turns. At rest the shifted edges bring the same places in a quarter several times: up to
-// three times that, so that of n blocks this much over sqrt(n) is not trusted.
+// Blocks of 128 samples, evenly over the octants. Of d only the whole quarters count, one with the probability of four
+// times the skew, for the rest is the place in the quarter, which repeats at rest: a block has a skew of 0.003 turns to
+// 1/4 sqrt(0.012/128) = 0.0024. At rest the shifted edges bring the same places at a border several times: up to four
+// times that, so that of n blocks this much over sqrt(n) is not trusted.
 constexpr double block_turns = 0.01;
 constexpr std::int32_t skew_blocks = 64;
 constexpr std::int32_t min_skew_blocks = 16;
@@ -140,7 +141,7 @@ void learn(const FringeReadoutConfig& c, FringeReadoutState& s, const Quadrature
     const bool was_learnt = s.ellipse.learnt;
     const EllipseLearning done = learn(s.ellipse, at_usual_amplitude(s, x), in.sign);
     if (done.is_first) s.skew_sum_turns = 0.0;
-    if (done.taken) s.skew_sum_turns += in.sign * (static_cast<double>(off) / turn_parts) - usual_off_turns(c, in);
+    if (done.taken) s.skew_sum_turns += 0.25 * in.sign * ((off + quarter_parts / 2) >> 16) - usual_off_turns(c, in);
     if (!done.completes) return;
     if (!was_learnt && s.ellipse.learnt) s.level = 1.0;
     const double mean = s.skew_sum_turns / (samples_a_bin * ellipse_bins);

@@ -251,4 +251,17 @@ TEST(FringeReadout, ARotationThatTurnsTheBeatBackIsNoSkew) {
     }
 }
 
+// At rest the same places come again and again, here all on one side of the middle of their octant.
+TEST(FringeReadout, PlacesThatRepeatAreNoSkew) {
+    Electronics e = Electronics::learnt();
+    bool skewed = false;
+    for (std::int64_t k = 0; k < 20'000; ++k) {
+        const double side = k % 2 == 0 ? 0.04 : -0.04;
+        skewed = skewed || e.at(0.125 * static_cast<double>(k / 2 % 8) + 0.0625 + side).skewed;
+    }
+    EXPECT_FALSE(skewed);
+    EXPECT_GE(e.state.n_skews, 16);
+    EXPECT_NEAR(e.state.skew_turns, 0.0, 0.001);
+}
+
 }  // namespace zlg::core::fringe_readout_test

@@ -58,7 +58,7 @@ struct FringeReadoutState {
     std::int32_t other_quarters = 0;   // another offset that the last `n_other` samples in a row have shown
     std::int32_t n_other = 0;
     std::int32_t n_unread = 0;    // halves of a settled gyro in a row without a fringe
-    double skew_sum_turns = 0.0;  // of d, in the sense of the beat, over the block
+    double skew_sum_turns = 0.0;  // of the whole quarters in d, in the sense of the beat, over the block
     double skew_turns = 0.0;      // its mean over blocks
     std::int32_t n_skews = 0;     // blocks, up to its memory
 
