@@ -65,6 +65,24 @@ TEST(GyroCompensationLit, AChiThatIsATenthOffRefusesNone) {
     EXPECT_LT(run(wrong, halves).gaps.at(0).sigma_sum_arcsec, 1.5 * usual.sigma_sum_arcsec);
 }
 
+// Ticks behind the window of the estimate are corrected one by one, each with the noise of its two mean squares:
+// the sum of their variances is in the sigma of the switch.
+TEST(GyroCompensationLit, SigmaHoldsTheCorrectionsBehindTheWindow) {
+    GyroCompensationConfig config = config_of(RelockMethod::mean_square);
+    config.gyro.light_noise = Wavelengths{0.02};
+    config.relock.ticks = 20;
+    const Halves halves = records(config, false);
+    const double within = run(config, halves).gaps.at(0).sigma_sum_arcsec;
+    config.relock.ticks = 40;
+    const double all = run(config, halves).gaps.at(0).sigma_sum_arcsec;
+    const double noise_sq = std::pow(config.gyro.light_noise.value(), 2);
+    const double unit =
+        config.gyro.chi * config.gyro.bias.value() * config.gyro.scale.value() * config.gyro.tick.value() / 2;
+    // <dl^2> of the records beyond the noise is 0 there.
+    const double of_a_tick = std::pow(unit * noise_sq, 2) * 4.0 / config.gyro.light_samples;
+    EXPECT_NEAR(all * all - within * within, 20.0 * of_a_tick, 0.2 * 20.0 * of_a_tick);
+}
+
 // Delivered and final values have the same sum, with lit halves too.
 TEST(GyroCompensationLit, TheSumsOfBothColumnsAreEqual) {
     const GyroCompensationConfig config = config_of(RelockMethod::mean_square);

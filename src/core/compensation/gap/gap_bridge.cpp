@@ -199,10 +199,10 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     if (config.method == BridgeMethod::none) return gap.has_before;
     ExactSum difference = gap.final_minus_delivered_arcsec;
     const bool is_short = gap.n <= max_gap_ticks(config);
-    bool is_estimate = false;
+    std::int64_t behind = 0;  // the window of an estimate
     if (is_short) {
         const SwitchAngle found = take(gyro, state, pending, late);
-        is_estimate = found.known;
+        behind = found.behind;
         if (found.known && !gap.moves) gap.variance_arcsec2 = found.variance_arcsec2;
         difference = found.known ? found.gap_arcsec : interpolate(gyro, config, state, gap, end, report);
         if (found.known) report.sigma_sum_arcsec = deviation(found.variance_arcsec2);
@@ -220,9 +220,9 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
     report.dp_arcsec = -difference.value();
     pending.correction_arcsec.add(difference);
     // What the ticks behind the estimate add to the angle of the switch.
-    if (is_estimate && !is_known(gap))
+    if (behind > 0 && !is_known(gap))
         report.sigma_sum_arcsec =
-            deviation(square(report.sigma_sum_arcsec) + relock_beyond(gyro, config, state, gap, end, end));
+            deviation(square(report.sigma_sum_arcsec) + relock_beyond(gyro, config, state, gap, behind, end));
     return gap.has_before;
 }
 

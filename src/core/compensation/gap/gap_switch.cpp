@@ -13,8 +13,8 @@
 namespace zlg::core {
 namespace {
 
-// What a reading far from the centre is off by, all halves of a switch in common: the law of the bias by 1.5 %, its
-// quartic term at the miss, and the detuning itself by .002 wavelength.
+// What a reading far from the centre is off by, all halves of a switch with one sign of the bias in common: the law of
+// the bias by 1.5 %, its quartic term at the miss, and the detuning itself by .002 wavelength.
 constexpr double law_error_ratio = 0.015;
 constexpr double reading_error_lambda = 0.002;
 
@@ -266,17 +266,15 @@ void set_after_tick(HistoryTick& entry, double value_arcsec, double error_arcsec
 // Ticks behind the window.
 void correct_late_ticks(GapBridgeState& state, const Gap& gap, const SwitchJob& job, SwitchAngle& found) noexcept {
     const SwitchWindow& window = job.window;
-    const std::int64_t first = gap.first_tick + gap.n + (window.n_halves - window.gap.last) / 2;
+    found.behind = gap.first_tick + gap.n + (window.n_halves - window.gap.last) / 2;
     for (int k = 0; k < job.n_late; ++k) {
-        HistoryTick& entry = at(state, first + k);
+        HistoryTick& entry = at(state, found.behind + k);
         const bool alternates = entry.read.half[0].sign == -entry.read.half[1].sign;
         if (!entry.read.measured || !entry.read.half[0].read || !entry.read.half[1].read || !alternates) continue;
         const double d = entry.read.half[0].sign * job.late_arcsec[static_cast<unsigned>(k)];
-        const double by_light = job.late_arcsec2[static_cast<unsigned>(k)];
-        const double variance = by_light + job.scale.variance * d * d;
+        const double variance = job.late_arcsec2[static_cast<unsigned>(k)] + job.scale.variance * d * d;
         const double read = entry.row.dtheta_final_arcsec + entry.row.relock_arcsec;
         set_after_tick(entry, read + (1.0 + job.scale.value) * d, variance, true, found.after_arcsec);
-        found.variance_arcsec2 += by_light;
     }
 }
 

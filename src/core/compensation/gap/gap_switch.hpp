@@ -17,7 +17,8 @@ struct SwitchAngle {
     bool known = false;             // false: no point on one side, or no estimate
     ExactSum gap_arcsec{};          // final minus delivered, of the gap
     ExactSum after_arcsec{};        // that of the ticks after it that are corrected
-    double variance_arcsec2 = 0.0;  // of all these together
+    double variance_arcsec2 = 0.0;  // of all these together, but for the ticks behind the window
+    std::int64_t behind = 0;        // the first of these
 };
 
 // Ask for the estimate of a gap, from the ticks before `end`: where there is a point on both sides, and a place for one
