@@ -114,6 +114,22 @@ TEST(GyroCompensationFringe, TheSumOverMissedHalvesIsThatOfThePlacesBesideThem) 
     EXPECT_NEAR(all.samples.back().angle_arcsec, places.arcsec(0, 1200), 1e-8);
 }
 
+// At rest whole counts show the bias wrong by a part of a count, which a mean over them keeps.
+TEST(GyroCompensationFringe, TheBiasIsMeasuredAnewWhenThePhaseComes) {
+    Places places;
+    places.at[0] = 32768;
+    for (std::size_t h = 0; h < 1200; ++h)
+        places.at.push_back(32768 + (h % 2 == 0 ? static_cast<std::int64_t>(150.37 * 65536.0) : 0));
+    Halves halves = places.halves();
+    for (std::size_t h = 0; h < 1000; ++h) halves[h].fringe = unknown;
+    GyroCompensationState state;
+    Delivered delivered;
+    for (std::size_t h = 0; h < 1000; ++h) step_into({}, state, halves[h], delivered);
+    EXPECT_NEAR(state.bias_arcsec, 150.0 * scale, 1e-9);
+    for (std::size_t h = 1000; h < 1200; ++h) step_into({}, state, halves[h], delivered);
+    EXPECT_NEAR(state.bias_arcsec, 150.37 * scale, 1e-4);
+}
+
 // A steady rate, so that the gap's angle is known: with whole counts the rounding of both edges stays in it.
 TEST(GyroCompensationFringe, AGapOfASteadyRateIsKnownToThePhase) {
     for (const BridgeMethod method : {BridgeMethod::constant, BridgeMethod::quadratic, BridgeMethod::automatic}) {
