@@ -49,10 +49,21 @@ std::string draw_profile(const chance::Draws& draws, double run_s, config::Confi
     return names[kind];
 }
 
+// Of the gyro's own drift, in whose place a field makes another one.
+void forget_calibration(config::Compensation& c) {
+    const config::Compensation unknown;
+    c.magnetic_arcsec_s = unknown.magnetic_arcsec_s;
+    c.magnetic_sigma_arcsec_s = unknown.magnetic_sigma_arcsec_s;
+    c.magnetic_thermal_arcsec_s = unknown.magnetic_thermal_arcsec_s;
+    c.magnetic_thermal_sigma_arcsec_s = unknown.magnetic_thermal_sigma_arcsec_s;
+    c.magnetic_thermal_time_s = unknown.magnetic_thermal_time_s;
+}
+
 std::string draw_field(const chance::Draws& draws, double run_s, config::Config& c) {
     constexpr std::array names{"drift", "constant", "sine", "steps"};
     const auto kind = draws.of("field").below(names.size());
     c.field.kind = static_cast<FieldKind>(kind);
+    if (c.field.kind != FieldKind::none) forget_calibration(c.compensation);
     c.field.sensitivity_arcsec_s_g = draws.of("sensitivity").within(0.1, 5.0);
     c.field.sensitivity_per_c = draws.of("sensitivity_per_c").within(-0.02, 0.0);
     c.field.field_g = draws.of("field_g").within(-0.6, 0.6);
