@@ -48,7 +48,7 @@ class Window:
     y: np.ndarray
     sign: np.ndarray
     light: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
-    error_var: np.ndarray | None = None  # of each row, beyond all else; and the deviation of an error that rows of one sign have in common
+    error_var: np.ndarray | None = None  # of each row, beyond all else; and the deviation of an error that rows have in common
     common: np.ndarray | None = None
     magnetic_variance: float = 0.0  # of the drift in a tick, that changes its sign at the gap
 
@@ -195,7 +195,8 @@ def estimate(gyro, window, moments, windows, scale=0.0, scale_var=0.01, bank=BAN
     errors += np.outer(window.sign, window.sign) * (1e-4 * bias) ** 2 * (side[:, None] == side)
     if window.common is not None:  # a row's own error, in its first half: only sums over rows are seen
         first = [row[0] for row in window.rows]
-        errors[np.ix_(first, first)] += np.diag(window.error_var) + np.maximum(np.outer(window.common, window.common), 0)
+        least = -np.inf if gyro.fringe_noise is None else 0.0  # by phase of rows of one sign alone
+        errors[np.ix_(first, first)] += np.diag(window.error_var) + np.maximum(np.outer(window.common, window.common), least)
     errors *= np.outer(is_read, is_read)
     magnetic = np.where(side > 0, 0.5, -0.5) * is_read
     y = (window.y + (1 + scale) * d) * is_read

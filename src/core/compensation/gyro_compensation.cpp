@@ -50,10 +50,6 @@ void assemble(const CompensationConstants& gyro, const HalfRecord& first, const 
     }
 }
 
-// Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes. Whole counts hide
-// it.
-constexpr double other_loop_part = 0.3;
-
 std::uint32_t flag_of(const FalseAngle& angle) noexcept {
     return angle.known ? flag_relock_corrected : flag_relock_uncorrected;
 }
@@ -62,12 +58,11 @@ void apply(const RelockDriftConfig& config, const RelockDriftOutput& relock, Tic
     // With nothing but a presumption the motion is learnt from all ticks.
     tick.settled = !relock.due || config.presumes;
     if (relock.due && !relock.waiting) {
-        const bool other_loop = tick.with_phase && config.method == RelockMethod::frequency;
         tick.relock_arcsec = relock.tick.value_arcsec;
         tick.value_arcsec -= tick.relock_arcsec;
         tick.relock_variance_arcsec2 = relock.tick.variance_arcsec2;
-        tick.variance_arcsec2 +=
-            tick.relock_variance_arcsec2 + (other_loop ? square(other_loop_part * tick.relock_arcsec) : 0.0);
+        const double part = tick.with_phase && config.method == RelockMethod::frequency ? other_loop_part : 0.0;
+        tick.variance_arcsec2 += tick.relock_variance_arcsec2 + square(part * tick.relock_arcsec);
         tick.flags |= flag_of(relock.tick);
     }
     if (!relock.first_due) return;

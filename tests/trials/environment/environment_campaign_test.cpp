@@ -3,6 +3,7 @@
 #include <set>
 
 #include <zlg/config/schema.hpp>
+#include <zlg/trials/gyro_campaign.hpp>
 
 #include "test.hpp"
 
@@ -30,6 +31,15 @@ TEST(EnvironmentCampaign, holds_gyros_that_are_well) {
         EXPECT_GE(o.switches, 1) << o.family;
     }
     EXPECT_NE(markdown(outcomes).find("| ~ all | 2 | 0 |"), std::string::npos);
+}
+
+// Its analog loop slews at first, which `frequency` does not presume, and the phase shows it.
+TEST(EnvironmentCampaign, holds_a_loop_that_is_not_exponential) {
+    const EnvironmentGyro gyro = environment_gyro({.run_s = 300.0}, 7);
+    ASSERT_EQ(gyro.config.compensation.relock, core::RelockMethod::frequency);
+    const GyroOutcome outcome = run(GyroTrial{.config = gyro.config});
+    EXPECT_GE(outcome.judged, 4);
+    EXPECT_LT(outcome.mean_sq_ratio, 3.0);
 }
 
 TEST(EnvironmentCampaign, names_what_breaks_a_limit) {

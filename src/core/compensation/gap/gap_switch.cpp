@@ -13,8 +13,8 @@
 namespace zlg::core {
 namespace {
 
-// What a reading far from the centre is off by, all halves of a switch with one sign of the bias in common: the law of
-// the bias by 1.5 %, its quartic term at the miss, and the detuning itself by .002 wavelength.
+// What a reading far from the centre is off by, all halves of a switch in common: the law of the bias by 1.5 %, its
+// quartic term at the miss, and the detuning itself by .002 wavelength.
 constexpr double law_error_ratio = 0.015;
 constexpr double reading_error_lambda = 0.002;
 
@@ -228,6 +228,8 @@ private:
             row.wanted = wanted;
             row.y_arcsec = entry.row.dtheta_final_arcsec - magnetic(entry);
             row.error_arcsec2 = entry.read.relock_variance_arcsec2;
+            if (wanted && state_.with_phase && config_.relock == RelockMethod::frequency)
+                row.common_arcsec = other_loop_part * entry.row.relock_arcsec;
             return;
         }
         const bool apart = by_halves_ && n_lit_ + 2 * (k + 1) <= halves_by_halves;

@@ -12,6 +12,10 @@ enum class RelockMethod : unsigned char {
     joint,        // detuning free-form in time from the light samples, weighed against the counts of the half-periods
 };
 
+// Part of a false angle by which `frequency` errs where the loop is not exponential, as it presumes: all ticks of a
+// switch alike. Whole counts hide it.
+inline constexpr double other_loop_part = 0.3;
+
 // How the reversals of the bias are shifted against lock-in.
 enum class DitherMethod : unsigned char {
     none,
