@@ -34,7 +34,7 @@ class Quantity(Shown):
     verdict: Optional[str]
     #: that the truth lies beyond the limit, of what passes
     risk: float
-    #: of such a record, that would decide; None: no time does, or it is decided
+    #: by which the record would be longer when it decides with an even chance; None: no time does, or it is decided
     more_hours: Optional[float]
     reason: str
 

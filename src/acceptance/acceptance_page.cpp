@@ -43,8 +43,9 @@ std::string verdict_cell(const Judged& judged) {
     if (!judged.verdict) return "no limit";
     std::string text{name_of(*judged.verdict)};
     if (judged.verdict == Verdict::undecided)
-        text += judged.more_hours ? fmt::format(": {} h more would decide", short_number(*judged.more_hours))
-                                  : ": no longer record would decide";
+        text += judged.more_hours
+                    ? fmt::format(": even chance of a verdict after {} h more", short_number(*judged.more_hours))
+                    : ": no longer record is likely to decide";
     if (judged.verdict == Verdict::pass) text += fmt::format(", risk {:.2g}", judged.risk);
     return text;
 }

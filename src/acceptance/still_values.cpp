@@ -19,7 +19,6 @@ namespace {
 
 using noise::FittedTerm;
 using noise::NoiseKind;
-using noise::NoiseTerms;
 using study::AxisResult;
 
 constexpr double significance = 0.05;
@@ -28,15 +27,6 @@ double known_s(const AxisResult& axis) { return static_cast<double>(axis.n_known
 
 // Of a coefficient with this relative standard error, as a standard deviation with so many degrees of freedom has it.
 double degrees_of(double relative) { return 0.5 / (relative * relative); }
-
-// The fitted noise at another length of the record.
-std::function<double(double)> mean_sigma_after(const AxisResult& axis) {
-    if (!axis.fit || !axis.fit->describes) return {};
-    NoiseTerms terms = axis.fit->terms;
-    terms.ramp_arcsec_s2 = 0.0;
-    terms.sines.clear();
-    return [terms](double hours) { return std::sqrt(noise::allan_variance(terms, 3600.0 * hours)); };
-}
 
 // Of a switched gyro the residuals of the segments tell the error: as they stand, or in means of four where these
 // scatter by more than independent ones could (an F test), as correlated noise makes them.
@@ -128,7 +118,7 @@ Value together(const std::vector<Value>& runs) {
     const bool differ = scatters(tested, n - 1.0);
     v.uncertainty = std::sqrt(differ ? scatter / n : within) / (differ ? 1.0 : n);
     v.degrees = differ ? n - 1.0 : within * within / own_degrees;
-    if (differ) v.uncertainty_after = {};
+    v.longer = differ ? Longer::adds_degrees : std::ranges::max_element(runs, {}, &Value::longer)->longer;
     v.reason += fmt::format("{}mean of {} records{}", v.reason.empty() ? "" : ", ", n,
                             differ ? ", which differ by more than their noise" : "");
     return v;
@@ -142,7 +132,7 @@ Value bias_of(const Plan& plan, const StillAxis& of) {
             .uncertainty = axis.mean_sigma_arcsec_s,
             .degrees = axis.mean_degrees};
     v.hours = known_s(axis) / 3600.0;
-    v.uncertainty_after = mean_sigma_after(axis);
+    v.longer = axis.mean_white > 0.5 ? Longer::keeps_degrees : Longer::helps_not;
     if (axis.modes && axis.modes->segments.size() > 1) {
         const numeric::Estimate& part = axis.modes->nonmagnetic_arcsec_s;
         if (!part.determined) return not_determined(v.name, fmt::format("run {}: {}", of.run->number, part.reason));
@@ -150,7 +140,7 @@ Value bias_of(const Plan& plan, const StillAxis& of) {
         v.value = part.value;
         v.uncertainty = scatter.sigma;
         v.degrees = scatter.degrees;
-        v.uncertainty_after = {};
+        v.longer = Longer::adds_degrees;
         v.reason = "non-magnetic drift of a switched gyro";
     }
     if (const auto earth = earth_about(plan.unit, of.run->axis)) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
@@ -47,24 +48,30 @@ std::optional<Verdict> verdict_of(const Value& v, const Limit& limit, double ris
     return 1.0 - p <= risk ? Verdict::fail : Verdict::undecided;
 }
 
-// What the same value would be known to after another time. Of noise that was fitted it stays as little known.
-Value after(const Value& v, double hours) {
+// Whether a record `longer` times as long decides as probably as not, to 1 %: its value is normal about the present one
+// with the variance that is lost.
+bool is_even_chance(const Value& v, const Limit& limit, double risk, double longer) {
     Value later = v;
-    const double longer = hours / v.hours;
-    later.hours = hours;
-    if (!v.uncertainty_after) later.degrees = v.degrees * longer;
-    later.uncertainty = v.uncertainty_after ? v.uncertainty * v.uncertainty_after(hours) / v.uncertainty_after(v.hours)
-                                            : v.uncertainty / std::sqrt(longer);
-    return later;
+    later.hours *= longer;
+    later.uncertainty /= std::sqrt(longer);
+    if (v.longer == Longer::adds_degrees) later.degrees *= longer;
+    const boost::math::normal moves(v.value, v.uncertainty * std::sqrt(1.0 - 1.0 / longer));
+    int decided = 0;
+    for (int k = 0; k < 100; ++k) {
+        later.value = boost::math::quantile(moves, (k + 0.5) / 100.0);
+        if (is_magnitude(v.name)) later.value = std::max(0.0, later.value);
+        decided += verdict_of(later, limit, risk) != Verdict::undecided ? 1 : 0;
+    }
+    return decided >= 50;
 }
 
-// The least time by halving, to 1 %: a longer record knows better, or never decides.
-std::optional<double> hours_that_decide(const Value& v, const Limit& limit, double risk) {
+// The least time by halving, to 1 %.
+std::optional<double> hours_of_even_chance(const Value& v, const Limit& limit, double risk) {
     constexpr double longest = 1000.0;
-    const auto decides = [&](double longer) {
-        return verdict_of(after(v, longer * v.hours), limit, risk) != Verdict::undecided;
-    };
-    if (!(v.hours > 0.0) || v.law == Law::without_error || !decides(longest)) return std::nullopt;
+    const auto decides = [&](double longer) { return is_even_chance(v, limit, risk, longer); };
+    if (!(v.hours > 0.0 && std::isfinite(v.uncertainty)) || is_exact(v) || v.longer == Longer::helps_not)
+        return std::nullopt;
+    if (!decides(longest)) return std::nullopt;
     double low = 1.0, high = longest;
     while (high > 1.01 * low) (decides(std::sqrt(low * high)) ? high : low) = std::sqrt(low * high);
     return (high - 1.0) * v.hours;
@@ -90,7 +97,7 @@ Judged judge(const Value& value, const std::optional<Limit>& limit, double risk)
     if (!value.determined || !limit) return judged;
     judged.verdict = verdict_of(value, *limit, risk);
     if (judged.verdict == Verdict::pass) judged.risk = beyond(value, *limit);
-    if (judged.verdict == Verdict::undecided) judged.more_hours = hours_that_decide(value, *limit, risk);
+    if (judged.verdict == Verdict::undecided) judged.more_hours = hours_of_even_chance(value, *limit, risk);
     return judged;
 }
 

@@ -94,7 +94,7 @@ std::vector<Law> laws_of(const std::vector<Mode>& modes, double n) {
     // B^2/(2 pi f) at f = k/(2T), over means of T/n; of the mean of all 2 ln2/pi B^2.
     const auto flicker = [](double k) { return 1.0 / (2.0 * std::numbers::ln2 * k); };
     std::vector<Law> all{law_of(modes, n, 0.0, walk)};
-    all.front().prior = 1.0;
+    all.front().prior = 1.0;  // white, the first
     add_kind(modes, n, walk, all);
     add_kind(modes, n, flicker, all);
     return all;
@@ -119,7 +119,8 @@ MeanError mean_error(std::span<const double> rates, std::span<const double> half
     variance /= every;
     // A Student law has E v^2/(E v)^2 = (degrees - 2)/(degrees - 4).
     const double spread = square / every / (variance * variance);
-    return {std::sqrt(variance), (4.0 * spread - 2.0) / (spread - 1.0)};
+    return {std::sqrt(variance), (4.0 * spread - 2.0) / (spread - 1.0),
+            std::exp(laws.front().log_likelihood - most) / every};
 }
 
 }  // namespace zlg::noise

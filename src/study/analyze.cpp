@@ -218,6 +218,7 @@ void take_mean_error(AxisRecord& record, AxisResult& axis) {
     const noise::MeanError error = noise::mean_error(record.rates_arcsec_s, half_periods);
     axis.mean_sigma_arcsec_s = error.sigma;
     axis.mean_degrees = error.degrees;
+    axis.mean_white = error.white;
 }
 
 AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {

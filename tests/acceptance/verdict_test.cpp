@@ -1,5 +1,7 @@
 #include <zlg/acceptance/verdict.hpp>
 
+#include <zlg/chance/draw.hpp>
+
 #include "test.hpp"
 
 namespace zlg::verdict_test {
@@ -79,17 +81,41 @@ TEST(Verdict, no_magnitude_is_below_nothing) {
     EXPECT_EQ(judge(width, band, 0.05).verdict, Verdict::pass);
 }
 
-TEST(Verdict, four_times_the_time_halves_the_guard_band) {
-    // 0.8225 u from the limit: half of 1.645 u, which 4 h, 3 h more, would make a whole one.
-    const Judged open = judge(student(1.0 - 0.8225, 1.0, INFINITY), at_most(1.0), 0.05);
-    ASSERT_EQ(open.verdict, Verdict::undecided);
-    ASSERT_TRUE(open.more_hours);
-    EXPECT_NEAR(*open.more_hours, 3.0, 0.05);
+// L times the time: u_L = u/sqrt(L), and the value is normal about the present one with s^2 = u^2 - u_L^2, so that the
+// chance is Phi((d - k u_L)/s) + Phi((-d - k u_L)/s), k = 1.645; it is known to 1 %.
+TEST(Verdict, the_chance_of_a_verdict_is_even_after_the_hours) {
+    for (const double distance : {0.8225, -0.8225, 1.6, 0.2, 0.0}) {
+        const Judged open = judge(student(1.0 - distance, 1.0, INFINITY), at_most(1.0), 0.05);
+        ASSERT_EQ(open.verdict, Verdict::undecided);
+        ASSERT_TRUE(open.more_hours);
+        const double longer = 1.0 + *open.more_hours;
+        const double guard = 1.6449 / std::sqrt(longer), s = std::sqrt(1.0 - 1.0 / longer);
+        const auto below = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
+        EXPECT_NEAR(below((distance - guard) / s) + below((-distance - guard) / s), 0.5, 0.011) << distance;
+    }
 }
 
-TEST(Verdict, a_floor_of_the_noise_is_decided_by_no_time) {
+// Simulated, wherever the truth lies.
+TEST(Verdict, half_of_the_values_are_decided_then) {
+    chance::Draw draw{1, chance::Cause::test};
+    int n = 0, decided = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const double truth = draw.within(-5.0, 5.0), value = truth + draw.normal();
+        const Judged open = judge(student(value, 1.0, INFINITY), at_most(0.0), 0.05);
+        if (open.verdict != Verdict::undecided) continue;
+        const double longer = 1.0 + open.more_hours.value();
+        // The mean of one record of length 1 and another one of length longer - 1.
+        const double all = (value + (longer - 1.0) * (truth + draw.normal() / std::sqrt(longer - 1.0))) / longer;
+        ++n;
+        const Judged later = judge(student(all, 1.0 / std::sqrt(longer), INFINITY), at_most(0.0), 0.05);
+        decided += later.verdict != Verdict::undecided ? 1 : 0;
+    }
+    EXPECT_NEAR(decided, 0.5 * n, 3.3 * std::sqrt(0.25 * n)) << n;
+}
+
+TEST(Verdict, slow_noise_is_decided_by_no_time) {
     Value v = student(0.5, 1.0, INFINITY);
-    v.uncertainty_after = [](double) { return 1.0; };
+    v.longer = Longer::helps_not;
     const Judged open = judge(v, at_most(1.0), 0.05);
     EXPECT_EQ(open.verdict, Verdict::undecided);
     EXPECT_FALSE(open.more_hours);

@@ -95,8 +95,8 @@ class Accept(CliTest):
         self.assertIn("needs a raw log with piezo_v", quantities["half_wave.v"]["reason"])
         self.assertIsNone(quantities["half_wave.v"]["value"])
 
-    def test_a_bias_at_its_limit_is_undecided_and_the_time_that_decides_is_right(self):
-        # Half a quantile of Student's law from the limit: 4 times the time makes that a whole one.
+    def test_a_bias_at_its_limit_is_undecided_and_the_time_of_an_even_chance_is_right(self):
+        # Half a quantile of Student's law from the limit; in a record L times as long the mean is known to u/sqrt(L) and moves by u sqrt(1 - 1/L).
         rates = white(20000, 3.0)
         rates += 0.5 - rates.mean()
         uncertainty, degrees = error_of_mean(rates)
@@ -105,7 +105,10 @@ class Accept(CliTest):
         found, quantities = self.judged(plan, 1)
         self.assertFalse(found["passed"])
         self.assertEqual(quantities["bias.deg_h"]["verdict"], "undecided")
-        self.assertAlmostEqual(quantities["bias.deg_h"]["more_hours"], 3.0 * 2000.0 / 3600.0, delta=0.2)
+        longer = 1.0 + quantities["bias.deg_h"]["more_hours"] * 3600.0 / 2000.0
+        guard, moves = student_95(degrees) / math.sqrt(longer), math.sqrt(1.0 - 1.0 / longer)
+        beyond = [(guard - side * 0.5 * student_95(degrees)) / moves for side in (-1.0, 1.0)]
+        self.assertAlmostEqual(sum(0.5 * math.erfc(x / math.sqrt(2.0)) for x in beyond), 0.5, delta=0.02)
 
     def test_a_bias_beyond_its_limit_fails(self):
         plan = self.plan([self.static(self.rates("a.csv", white(5000, 1.0, mean=2.0)))], '"bias.deg_h" = { max = 1 }\n')

@@ -114,6 +114,18 @@ TEST(MeanError, follows_the_unit_and_not_the_bias_and_takes_gaps_and_sinusoids) 
     EXPECT_NEAR(mean_error(wavy, line).sigma, mean_error(x, line).sigma, 1e-9 * e.sigma);
 }
 
+// A record of white noise is more often so than not; of one 16 times as long as a walk needs to show, hardly ever.
+TEST(MeanError, white_noise_is_told_from_a_walk) {
+    int white = 0, walk = 0;
+    for (std::uint64_t k = 1; k <= 200; ++k) {
+        const Series flat = with_walk(0.0, k), walking = with_walk(n / 16.0, k);
+        white += mean_error(std::span{flat}.first(n)).white > 0.5 ? 1 : 0;
+        walk += mean_error(std::span{walking}.first(n)).white > 0.5 ? 1 : 0;
+    }
+    EXPECT_GT(white, 140);
+    EXPECT_LT(walk, 4);
+}
+
 // Where one in ten is known beside stretches without a gap.
 TEST(MeanError, stretches_with_hardly_anything_known_do_not_count) {
     Series x = with_walk(0.0, 2);

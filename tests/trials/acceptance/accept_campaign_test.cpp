@@ -31,4 +31,15 @@ TEST(AcceptCampaign, a_risk_that_is_not_kept_is_found) {
     EXPECT_FALSE(is_good(9, 4, 0.03 / 4.0));
 }
 
+TEST(AcceptCampaign, hours_that_are_wrong_by_half_are_found) {
+    // Of 100 with an even chance 66 or more, or 34 or fewer, are decided once in a thousand.
+    const auto is_good = [](int early, int late) {
+        return trials::VerdictScore{.predicted = 100, .decided = {early, 50, late}, .known = 100, .squares = 100.0}
+            .is_good(0.05);
+    };
+    EXPECT_TRUE(is_good(35, 60));
+    EXPECT_FALSE(is_good(67, 80));
+    EXPECT_FALSE(is_good(20, 33));
+}
+
 }  // namespace zlg::accept_campaign_test

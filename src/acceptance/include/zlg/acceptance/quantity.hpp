@@ -2,7 +2,6 @@
 // What an acceptance test can say of a gyro: the names, units and definitions, and a value with what is known of its
 // error.
 
-#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -37,6 +36,13 @@ enum class Law {
     without_error  // counted, or read
 };
 
+// What a record L times as long does.
+enum class Longer {
+    adds_degrees,   // uncertainty/sqrt(L), L times the degrees
+    keeps_degrees,  // uncertainty/sqrt(L), the degrees are those of what noise it may be
+    helps_not       // slow noise is more probable than none
+};
+
 struct Value {
     std::string name;
     bool determined = false;
@@ -46,8 +52,7 @@ struct Value {
     Law law = Law::student;
     double hours = 0.0;  // of the record from which it comes
     std::string reason;  // why it is not determined, or what the value is
-    // The uncertainty after so many hours by the fitted noise; empty: it falls with the square root of time.
-    std::function<double(double)> uncertainty_after{};
+    Longer longer = Longer::adds_degrees;
 };
 
 [[nodiscard]] Value not_determined(std::string_view name, std::string reason);

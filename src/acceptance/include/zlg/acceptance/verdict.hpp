@@ -29,9 +29,10 @@ enum class Verdict { pass, fail, undecided, not_determined };
 struct Judged {
     Value value;
     std::optional<Limit> limit;
-    std::optional<Verdict> verdict;    // of a value that is determined only where there is a limit
-    double risk = 0.0;                 // that the truth lies beyond the limit, of what passes
-    std::optional<double> more_hours;  // that would decide, in such a record; absent where no time does
+    std::optional<Verdict> verdict;  // of a value that is determined only where there is a limit
+    double risk = 0.0;               // that the truth lies beyond the limit, of what passes
+    // By which the record would be longer when it decides with an even chance; absent where no time does.
+    std::optional<double> more_hours;
 };
 
 // risk  0 < . < 0.5.

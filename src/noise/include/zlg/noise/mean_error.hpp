@@ -31,6 +31,7 @@ struct MeanError {
     // Standard deviation of what such a mean and the next one differ by, over sqrt(2). NaN: not known.
     double sigma = std::numeric_limits<double>::quiet_NaN();
     double degrees = 1.0;  // of freedom of a Student law with that kurtosis; 4 or more where sigma is known
+    double white = 0.0;    // probability that the noise is white alone, so that a longer record knows the mean better
 };
 
 // rates  of equal intervals one after the other, NaN where not known; from 128 on they are joined to 64 or some more.

@@ -67,6 +67,7 @@ struct AxisResult {
     // What the noise lets it differ by: see docs/noise.md, "Mean rate and the Earth". NaN: not known.
     double mean_sigma_arcsec_s = 0.0;
     double mean_degrees = 1.0;                       // of freedom of that
+    double mean_white = 0.0;                         // probability that its noise is white alone
     std::vector<deviations::DeviationCurve> curves;  // those asked for
     // What readouts are taken from: the first of oadev, adev, totdev that was asked for, or else oadev at octaves.
     // Without points where the record has none.
