@@ -10,9 +10,12 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/design/relock_loop.hpp>
+#include <zlg/recorded/motion.hpp>
 #include <zlg/report/number_text.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/study/switch_trial.hpp>
+
+#include "forecast.hpp"
 
 namespace zlg::choice {
 namespace {
@@ -81,6 +84,9 @@ std::string why_not_tick(const Requirement& r, double tick_s) {
     } catch (const config::ConfigError& error) {
         return error.what();
     }
+    if (const double held_s = recorded::motion(gyro).duration_s(); held_s < least_trial_s(gyro))
+        return fmt::format("the motion file lasts {:.6g} s; to learn the error of a switch takes {:.6g} s or more",
+                           held_s, least_trial_s(gyro));
     if (gyro.perimeter.miss_lambda == 0.0 || gyro.compensation.relock_ticks == 0) return "";
     const design::RelockLoop loop{.tick_s = tick_s,
                                   .tau_s = gyro.perimeter.tau_s,

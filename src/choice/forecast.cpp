@@ -28,6 +28,10 @@ double share_within(double limit, double mean, double variance) {
     return 0.5 * (std::erf((limit - mean) * scale) + std::erf((limit + mean) * scale));
 }
 
+double trial_interval_s(const config::Config& gyro) {
+    return 1.07 * std::max(least_interval_s, 2.0 * study::shortest_interval_s(gyro));
+}
+
 }  // namespace
 
 double first_switch_s(const Candidate& c) {
@@ -49,6 +53,8 @@ double magnetic_angle_arcsec(const design::GyroDrift& gyro, double run_s, const 
                    design::kernel_arcsec(gyro, c.interval_s, last_s));
 }
 
+double least_trial_s(const config::Config& gyro) { return (least_switches + 0.5) * trial_interval_s(gyro); }
+
 Forecast::Forecast(const Population& population, int threads, IsStopped is_stopped)
     : population_{population}, threads_{threads}, is_stopped_{std::move(is_stopped)} {}
 
@@ -59,12 +65,10 @@ SwitchLaw Forecast::learnt(std::int64_t number, const Method& method) const {
         gyro.drift.magnetic_arcsec_s = gyro.drift.magnetic_thermal_arcsec_s = gyro.drift.nonmagnetic_arcsec_s = 0.0;
         gyro.compensation.magnetic = core::MagneticMethod::none;
         gyro.switching.schedule = config::Schedule::fixed;
-        gyro.switching.interval_s = 1.07 * std::max(least_interval_s, 2.0 * study::shortest_interval_s(gyro));
+        gyro.switching.interval_s = trial_interval_s(gyro);
         gyro.gyro.fidelity = config::Fidelity::averaged;
-        const double available_s = recorded::motion(gyro).duration_s();
-        // Of a motion file too short for it nothing is known: only trials discard.
-        if (available_s < (least_switches + 0.5) * gyro.switching.interval_s) return {};
-        gyro.run.duration_s = std::min((n_switches + 0.5) * gyro.switching.interval_s, available_s);
+        gyro.run.duration_s =
+            std::min((n_switches + 0.5) * gyro.switching.interval_s, recorded::motion(gyro).duration_s());
         const Trial trial = try_gyro(population_.requirement(), gyro, is_stopped_);
         const auto n = static_cast<double>(trial.switches);
         if (trial.state != TrialState::good || trial.switches < least_switches) return {infinite};
@@ -85,7 +89,7 @@ bool Forecast::leaves_unknown(const Candidate& c) const {
 }
 
 const std::vector<SwitchLaw>& Forecast::laws(const Method& m) {
-    std::vector<SwitchLaw>& found = laws_[{m.relock, m.bridge, m.reading, m.tick_s}];
+    std::vector<SwitchLaw>& found = laws_[key(m)];
     if (!found.empty()) return found;
     found.resize(population_.requirement().tolerance.empty() ? 2 : n_tried);
     numeric::in_parallel(found.size(), threads_,
@@ -100,8 +104,9 @@ const std::vector<Forecast::Gyro>& Forecast::gyros(const Method& method) {
     for (std::int64_t k = 0; k < n; ++k) {
         try {
             const config::Config gyro = population_.gyro(k, {.method = method});
+            const double count = gyro.gyro.scale_arcsec;
             found.push_back({study::gyro_drift(gyro), gyro.drift.random_walk_arcsec_sqrt_s,
-                             method.reading == Reading::phase ? 0.0 : gyro.gyro.scale_arcsec});
+                             count * count / (method.reading == Reading::phase ? 12.0 : 6.0)});
         } catch (const config::ConfigError&) {
             // It is none; the trials count it.
         }
@@ -117,7 +122,7 @@ Parts Forecast::parts_of(const Gyro& gyro, const SwitchLaw& law, const Candidate
             .switches = m == 0 ? 0.0 : static_cast<double>(m) * law.rms_arcsec * law.rms_arcsec,
             .alternating = m == 0 ? 0.0 : law.alternating_arcsec * law.alternating_arcsec,
             .walk = gyro.walk_arcsec_sqrt_s * gyro.walk_arcsec_sqrt_s * run_s,
-            .rounding = gyro.count_arcsec * gyro.count_arcsec / 6.0};
+            .rounding = gyro.rounding_arcsec2};
 }
 
 std::vector<Parts> Forecast::all_parts(const Candidate& candidate) {

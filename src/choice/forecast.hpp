@@ -4,10 +4,12 @@
 //   error at the end = M + a + N(0, m s^2 + W^2 t + K^2/6)
 //
 // with M the angle that the alternating magnetic drift leaves (exact), m the switches of the run, s the rms and a the
-// alternating mean of their errors by a short trial, W the random walk, K the worth of a count. The false angle a is
-// there after every odd switch and taken back by the next: a run that ends half an interval sooner or later ends with
-// it, so that it counts after an even number of switches too. What a schedule that measures and the estimate of the
-// magnetic drift leave of M no closed form says: for them M is 0 where it would discard, and whole where it ranks.
+// alternating mean of their errors by a short trial, W the random walk, K the worth of a count. By phase it is K^2/12:
+// the first ticks are counted, until the ellipse of the photodiodes is learnt, so that the place at the start stays
+// unknown. The false angle a is there after every odd switch and taken back by the next: a run that ends half an
+// interval sooner or later ends with it, so that it counts after an even number of switches too. What a schedule that
+// measures and the estimate of the magnetic drift leave of M no closed form says: for them M is 0 where it would
+// discard, and whole where it ranks.
 
 #include <map>
 #include <tuple>
@@ -34,6 +36,9 @@ struct SwitchLaw {
     double alternating_arcsec = 0.0;
 };
 
+// Of the motion, without which nothing is known of a switch of this gyro.
+[[nodiscard]] double least_trial_s(const config::Config& gyro);
+
 [[nodiscard]] double first_switch_s(const Candidate& candidate);
 
 // Switches before the end of the run.
@@ -58,6 +63,9 @@ public:
     // Whether less of it is left, which no closed form says.
     [[nodiscard]] bool leaves_unknown(const Candidate& candidate) const;
 
+    // Those that another forecast learns, in place of its own: of gyros that differ in what a trial is without.
+    void take_laws(Forecast& other, const Method& method) { laws_[key(method)] = other.laws(method); }
+
     // Of one gyro of this method: rms of a switch over the gyros that were tried.
     [[nodiscard]] double switch_rms_arcsec(const Method& method);
 
@@ -65,9 +73,11 @@ private:
     struct Gyro {
         design::GyroDrift drift;
         double walk_arcsec_sqrt_s = 0.0;
-        double count_arcsec = 0.0;  // of the configured reading
+        double rounding_arcsec2 = 0.0;
     };
     using Key = std::tuple<core::RelockMethod, core::BridgeMethod, Reading, double>;
+
+    static Key key(const Method& m) { return {m.relock, m.bridge, m.reading, m.tick_s}; }
 
     // Of each gyro and law that go together.
     [[nodiscard]] std::vector<Parts> all_parts(const Candidate& candidate);

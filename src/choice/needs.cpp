@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::int64_t confirming_gyros = 24;
 constexpr double furthest = 100.0;
-constexpr double coarse_step = 0.25;  // of the way to the furthest factor, in the logarithm
-constexpr int halvings = 5;           // of that step
-constexpr double trial_step = 0.125;
+// Of the way to the furthest factor, in the logarithm: of 1.8, each of which tries switches, and of 1.33.
+constexpr double coarse_step = 0.125, fine_step = 0.0625;
+constexpr int halvings = 4;  // of that step
 
 // A constant of the gyro, and what else goes with a factor on it.
 struct Constant {
@@ -57,21 +57,23 @@ struct Enough {
 
 class Changed {
 public:
-    Changed(const Task& task, const Candidate& candidate, const Constant& constant)
-        : task_{task}, candidate_{candidate}, constant_{constant} {}
+    // as_it_is  of the gyros without a change; outlives it, as all do.
+    Changed(const Task& task, const Candidate& candidate, const Constant& constant, Forecast& as_it_is)
+        : task_{task}, candidate_{candidate}, constant_{constant}, as_it_is_{as_it_is} {}
 
     // Nearest by the closed forms, then further until the gyros agree. direction  1 or -1.
     [[nodiscard]] std::optional<Enough> enough(double direction) const {
         const auto factor = [&](double way) { return std::pow(furthest, direction * way); };
-        double way = coarse_step;
-        while (way <= 1.0 && !is_likely(factor(way))) way += coarse_step;
+        const double step = is_of_drift() ? fine_step : coarse_step;
+        double way = step;
+        while (way <= 1.0 && !is_likely(factor(way))) way += step;
         if (way > 1.0) return std::nullopt;
-        double too_little = way - coarse_step;
+        double too_little = way - step;
         for (int halving = 0; halving < halvings; ++halving) {
             const double middle = 0.5 * (too_little + way);
             (is_likely(factor(middle)) ? way : too_little) = middle;
         }
-        for (; way <= 1.0; way += trial_step) {
+        for (; way <= 1.0; way += step) {
             const Enough found{factor(way), tried(factor(way))};
             if (found.trials.share(task_.requirement.limit_arcsec()) >= task_.requirement.confidence) return found;
         }
@@ -79,6 +81,9 @@ public:
     }
 
 private:
+    // Which leaves the error of a switch as it is.
+    [[nodiscard]] bool is_of_drift() const { return constant_.keys.front().starts_with("drift."); }
+
     [[nodiscard]] Population population(double factor) const {
         return {task_.requirement, task_.requirement.base.run.seed, confirming_gyros,
                 [this, factor](config::Config& c) {
@@ -90,6 +95,7 @@ private:
     // The interval with the best chance.
     [[nodiscard]] std::pair<double, Candidate> best(const Population& changed) const {
         Forecast forecast{changed, task_.threads, task_.is_stopped};
+        if (is_of_drift()) forecast.take_laws(as_it_is_, candidate_.method);
         std::pair<double, Candidate> found{-1.0, candidate_};
         for (const Candidate& c : candidates(task_.requirement, candidate_.method)) {
             const double chance = forecast.chance(c);
@@ -112,15 +118,16 @@ private:
     const Task& task_;
     const Candidate& candidate_;
     const Constant& constant_;
+    Forecast& as_it_is_;
 };
 
-Need need_of(const Task& task, const Candidate& candidate, const Constant& constant) {
+Need need_of(const Task& task, const Candidate& candidate, const Constant& constant, Forecast& as_it_is) {
     config::Config gyro = with(task.requirement.base, candidate);
     Need need{.keys = constant.keys, .from = constant.of(gyro), .to = constant.of(gyro)};
     std::optional<Enough> nearest;
     for (const double direction : {-1.0, 1.0}) {
         if (need.from == 0.0) break;
-        std::optional<Enough> found = Changed{task, candidate, constant}.enough(direction);
+        std::optional<Enough> found = Changed{task, candidate, constant, as_it_is}.enough(direction);
         if (found && (!nearest || std::abs(std::log(found->factor)) < std::abs(std::log(nearest->factor))))
             nearest = std::move(found);
     }
@@ -144,8 +151,10 @@ Need need_of(const Task& task, const Candidate& candidate, const Constant& const
 }  // namespace
 
 std::vector<Need> needs(const Task& task, const Candidate& candidate) {
+    const Population same{task.requirement, task.requirement.base.run.seed, confirming_gyros};
+    Forecast as_it_is{same, task.threads, task.is_stopped};
     std::vector<Need> all;
-    for (const Constant& constant : constants()) all.push_back(need_of(task, candidate, constant));
+    for (const Constant& constant : constants()) all.push_back(need_of(task, candidate, constant, as_it_is));
     return all;
 }
 

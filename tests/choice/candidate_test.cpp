@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "temporary_folder.hpp"
 #include "test.hpp"
 
 namespace zlg::candidate_test {
@@ -53,6 +56,28 @@ TEST(Candidates, longer_intervals_come_first_and_end_with_the_run) {
     for (std::size_t k = 1; k < all.size(); ++k) EXPECT_LE(all[k].interval_s, all[k - 1].interval_s);
     for (const double wanted_s : {300.0, 150.0, 100.0, 90.0, 60.0, 20.0, 1.0})
         EXPECT_NE(std::ranges::find(all, wanted_s, &Candidate::interval_s), all.end()) << wanted_s;
+}
+
+// What is not known of a switch is not taken for 0.
+TEST(Candidates, a_motion_file_too_short_to_learn_the_error_of_a_switch_leaves_nothing_to_choose) {
+    const test::TemporaryFolder folder;
+    const auto excluded = [&](std::size_t rows) {
+        std::string text;
+        for (std::size_t k = 0; k < rows; ++k) text += fmt::format("{}\n", k % 7);
+        const std::string path = folder.write(fmt::format("{}.txt", rows), text);
+        const Requirement r = parse_requirement(
+            fmt::format("[require]\nrun_s = 6\nangle_error_arcsec = 10\n[motion]\nkind = \"file\"\nrate_hz = 10\n"
+                        "path = \"{}\"\n",
+                        path),
+            "r.toml");
+        const Methods found = methods(r);
+        EXPECT_EQ(found.all.empty(), !found.excluded.empty());
+        return found.excluded.empty() ? "" : found.excluded.front();
+    };
+    // Five intervals but half of one, of 1.07 times 2.5 s: 12.04 s.
+    EXPECT_NE(excluded(120).find("the motion file lasts 12 s; to learn the error of a switch takes 12.0"),
+              std::string::npos);
+    EXPECT_EQ(excluded(125), "");
 }
 
 TEST(Candidates, four_counts_a_fringe_are_the_same_gyro) {

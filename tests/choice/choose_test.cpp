@@ -87,7 +87,7 @@ TEST(Search, without_a_switch_nothing_takes_the_magnetic_drift_out) {
     const Population gyros{r, 1, 8};
     Forecast forecast{gyros, 1, {}};
     Search search{task, forecast, gyros};
-    for (const Candidate& c : search.best(4)) EXPECT_LT(c.interval_s, 40.0) << in_words(c);
+    for (const Candidate& c : search.best(4)) EXPECT_GT(switches_until(40.0, c), 0) << in_words(c);
 }
 
 // Without a magnetic drift and a switch the walk is most of the error: N(0, W^2 t).
@@ -121,9 +121,30 @@ TEST(Choose, a_constant_would_have_to_change_in_the_direction_and_by_the_factor_
     }
 }
 
+// Without a switch 0.5 t - (t - tau (1 - exp(-t/tau))) arcsec are left at t = 40 s, none where tau (1 - exp(-t/tau)) is
+// 20 s: tau = 25.1 s. 4 arcsec away from it tau is 17.9 and 35.5 s: a window of a factor of 2, in which nothing but the
+// count is left.
+TEST(Choose, a_window_of_a_factor_of_two_is_found) {
+    const Requirement r = parse_requirement(
+        fmt::format("[require]\nrun_s = 40\ngyros = 40\nconfidence = 0.9\nangle_error_arcsec = 4\n{}", small_gyro),
+        "r.toml",
+        {"gyro.fidelity=events", "switching.interval_s=40", "switching.first_segment=full", "gyro.scale_arcsec=0.5",
+         "drift.magnetic_arcsec_s=0.5", "drift.magnetic_thermal_arcsec_s=-1", "drift.thermal_time_s=44.7",
+         "drift.random_walk_arcsec_sqrt_s=0.001"});
+    const Answer a = chosen(r);
+    ASSERT_FALSE(a.met);
+    const auto need = std::ranges::find_if(
+        a.would_need, [](const Need& n) { return n.keys[0] == std::string{"drift.thermal_time_s"}; });
+    ASSERT_NE(need, a.would_need.end());
+    ASSERT_TRUE(need->is_enough) << need->sentence;
+    EXPECT_GT(need->to, 17.9) << need->sentence;
+    EXPECT_LT(need->to, 35.5) << need->sentence;
+}
+
 TEST(Choose, each_proof_has_gyros_of_its_own) {
     // On the border: many candidates pass the trials and fall short of it in their proof.
-    const Requirement r = of_walk_alone(1.645 * 1.4 * std::sqrt(40.0), 60);
+    Requirement r = of_walk_alone(1.645 * std::sqrt(1.4 * 1.4 * 40.0 + 3.263 * 3.263 / 6.0), 60);
+    r.base.run.seed = 3;
     const Answer a = chosen(r);
     ASSERT_GT(a.proofs, 1u);
     const auto error = [&](std::uint64_t proof) {

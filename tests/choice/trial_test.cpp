@@ -49,6 +49,31 @@ TEST(Forecast, the_magnetic_angle_is_the_sum_of_the_segments) {
         }
 }
 
+// Over unlike rates the places within a fringe are even and independent. Counts round both ends: of the difference the
+// mean square is K^2/6, the mean fourth power K^4/15. By phase the first ticks are counted, until the ellipse is
+// learnt: the start alone is rounded, K^2/12 and K^4/80.
+TEST(Forecast, rounding_is_that_of_both_ends_by_counts_and_of_the_start_by_phase) {
+    const Requirement r = required(
+        "[motion]\nkind = \"constant\"\n[drift]\nrandom_walk_arcsec_sqrt_s = 0\nmagnetic_arcsec_s = 0.001\n"
+        "magnetic_thermal_arcsec_s = 0\n"
+        "[[tolerance]]\nkeys = [\"motion.rate_arcsec_s\"]\ndraw = \"uniform\"\nmin = 1000\nmax = 3000\n");
+    constexpr int n = 200;
+    const double count2 = 3.263 * 3.263;
+    const Population gyros{r, 1, n};
+    Forecast forecast{gyros, 1, {}};
+    for (const Reading reading : {Reading::x1, Reading::phase}) {
+        const bool is_phase = reading == Reading::phase;
+        const double expected = count2 / (is_phase ? 12.0 : 6.0);
+        const double fourth = count2 * count2 / (is_phase ? 80.0 : 15.0);
+        const Candidate no_switch{.method = {.reading = reading}, .interval_s = 60.0};
+        double square = 0.0;
+        for (int k = 0; k < n; ++k)
+            square += std::pow(gyros.run(k, no_switch, config::Fidelity::events, {}).error_arcsec, 2) / n;
+        EXPECT_NEAR(forecast.parts(no_switch).rounding, expected, 1e-12);
+        EXPECT_NEAR(square, expected, 4.0 * std::sqrt((fourth - expected * expected) / n)) << in_words(no_switch);
+    }
+}
+
 TEST(Trial, a_gyro_without_chance_ends_with_what_the_magnetic_drift_leaves) {
     Requirement r = required(
         "[motion]\nkind = \"constant\"\nrate_arcsec_s = 37.3\n[drift]\nrandom_walk_arcsec_sqrt_s = "
