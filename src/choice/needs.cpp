@@ -92,10 +92,11 @@ private:
                 }};
     }
 
-    // The interval with the best chance.
+    // The interval with the best chance; the candidate's own where no closed form knows what another leaves.
     [[nodiscard]] std::pair<double, Candidate> best(const Population& changed) const {
         Forecast forecast{changed, task_.threads, task_.is_stopped};
         if (is_of_drift()) forecast.take_laws(as_it_is_, candidate_.method);
+        if (forecast.leaves_unknown(candidate_)) return {forecast.chance(candidate_), candidate_};
         std::pair<double, Candidate> found{-1.0, candidate_};
         for (const Candidate& c : candidates(task_.requirement, candidate_.method)) {
             const double chance = forecast.chance(c);
