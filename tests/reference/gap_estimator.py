@@ -195,8 +195,7 @@ def estimate(gyro, window, moments, windows, scale=0.0, scale_var=0.01, bank=BAN
     errors += np.outer(window.sign, window.sign) * (1e-4 * bias) ** 2 * (side[:, None] == side)
     if window.common is not None:  # a row's own error, in its first half: only sums over rows are seen
         first = [row[0] for row in window.rows]
-        least = -np.inf if gyro.fringe_noise is None else 0.0  # by phase of rows of one sign alone
-        errors[np.ix_(first, first)] += np.diag(window.error_var) + np.maximum(np.outer(window.common, window.common), least)
+        errors[np.ix_(first, first)] += np.diag(window.error_var) + np.outer(window.common, window.common)
     errors *= np.outer(is_read, is_read)
     magnetic = np.where(side > 0, 0.5, -0.5) * is_read
     y = (window.y + (1 + scale) * d) * is_read

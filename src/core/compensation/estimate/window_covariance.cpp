@@ -195,9 +195,7 @@ double ReadingErrors::of(int r, int s) const noexcept {
     const WindowRow& row = row_of(window_, r);
     const WindowRow& other = row_of(window_, s);
     const auto& d = readings_.false_arcsec;
-    // By phase of either sign of the bias its own: dark light of a photodiode shifts the detuning one way, then the
-    // other. Whole counts hide that.
-    double sum = larger(row.common_arcsec * other.common_arcsec, window_.with_phase ? 0.0 : -infinity);
+    double sum = row.common_arcsec * other.common_arcsec;
     sum += d[static_cast<unsigned>(r)] * d[static_cast<unsigned>(s)] * scale_.variance;
     const Stretch& forms = forms_[static_cast<unsigned>(r)];
     const Stretch& others = forms_[static_cast<unsigned>(s)];

@@ -28,8 +28,8 @@ struct WindowRow {
     bool after_gap = false;        // on that side of it
     double y_arcsec = 0.0;         // as read, without the bias
     double recorded_arcsec = 0.0;  // false angle by the record of the light, as d_r, where it is not that of `light`
-    // Standard deviation of an error that all rows with one have in common, with its sign, by phase only those of the
-    // same sign: of a light that is read far from the centre.
+    // Standard deviation of an error that all rows with one have in common, with its sign: of a light that is read far
+    // from the centre.
     double common_arcsec = 0.0;
     double error_arcsec2 = 0.0;  // variance of what else it may hold, which stays in the angle if it is wanted
 
