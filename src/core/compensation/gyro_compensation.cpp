@@ -148,8 +148,8 @@ void note_phase(GyroCompensationState& state, bool with_phase) noexcept {
     if (n != (by_phase ? 0 : phase_debounce)) return;
     by_phase = !by_phase;
     state.bridge.spread = {};
-    // At rest the mean of whole counts is off by up to half of one, and by phase that is much.
-    if (by_phase) state.n_bias = 0.0;
+    // At rest the mean of whole counts is off by up to half of one, and by phase that is much: it weighs as the others.
+    if (by_phase && state.n_bias > phase_debounce) state.n_bias = phase_debounce;
 }
 
 // Number of recent switches over which the mean square of their errors is taken.
