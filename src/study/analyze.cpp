@@ -159,6 +159,7 @@ void take_spectra(const AxisRecord& record, AxisResult& axis) {
         // Too short, or too little known: the page goes without.
         axis.spectrum = {};
         axis.bands = {};
+        axis.band_time_s = {};
     }
 }
 
