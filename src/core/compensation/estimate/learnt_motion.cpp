@@ -3,6 +3,7 @@
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
+#include "common/pair.hpp"
 
 namespace zlg::core {
 namespace {
@@ -17,7 +18,11 @@ void take_part(LearntMotion& m) noexcept {
         const int last = kept + w;
         const double x = of(m.recent, last);
         const int far = last < length - 1 ? last : length - 1;
-        for (int k = 0; k <= far; ++k) of(m.product, k) += x * of(m.recent, last - k);
+        double* const product = m.product.data();
+        const double* const before = m.recent.data() + last;
+        int k = 0;
+        for (; k < far; k += 2) store(product + k, load(product + k) + x * Pair{before[-k], before[-k - 1]});
+        if (k == far) product[k] += x * before[-k];
         m.sum += x;
         if (m.n_run + w < length - 1) of(m.head, m.n_run + w) = x;
     }
