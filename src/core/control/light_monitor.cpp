@@ -57,14 +57,18 @@ int side_of(const MonitorLimits& c, const LightMonitorState& s, const LightMonit
     return odd_lambda < -limit_lambda ? -1 : 0;
 }
 
-// In a settled gyro: unbalanced after eight halves in a row on one side, balanced after eight on none; unbalanced at
-// once where the detuning that is read should have weakened the bias more. On the way to a lock the detuning itself
-// changes.
+// In a settled gyro: unbalanced after eight halves in a row on one side, balanced after eight on none, or at once where
+// the side changes, as it does where the perimeter swings and no beam has faded; unbalanced at once where the detuning
+// that is read should have weakened the bias more. On the way to a lock the detuning itself changes.
 void weigh_beams(const MonitorLimits& c, LightMonitorState& s, const LightMonitorInput& in) noexcept {
     const int side = side_of(c, s, in);
     s.n_side = side == s.side ? s.n_side + (s.n_side < balance_debounce) : 1;
     s.side = static_cast<std::int8_t>(side);
     if (in.settled && s.n_side >= balance_debounce) s.is_unbalanced = side != 0;
+    if (side != 0) {
+        if (in.settled && side != s.last_side) s.is_unbalanced = false;
+        s.last_side = static_cast<std::int8_t>(side);
+    }
     // Light noise is in the mean square, sigma^2, but does not weaken the bias; (2 sigma)^2 leaves a margin.
     const double above_noise =
         0.5 * (in.read.mean_sq_lambda2 + s.last_lambda2) - 4.0 * c.light_noise.value() * c.light_noise.value();

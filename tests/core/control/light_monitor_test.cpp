@@ -161,6 +161,23 @@ TEST(LightMonitor, APerimeterThatSwingsIsNoNoise) {
     }
 }
 
+// It may look so for a moment, as after a switch: but what a faded beam adds keeps its side.
+TEST(LightMonitor, APerimeterThatSwingsDoesNotStayAFadedBeam) {
+    Light light(10);
+    light.state.is_unbalanced = true;
+    light.state.n_side = 0;
+    int n_unbalanced = 0;
+    for (int k = 0; k < 200; ++k) {
+        light.detuning_lambda = 0.04 * std::sin(0.9 * std::numbers::pi * k);
+        const Judged half = light.half();
+        n_unbalanced += half.unbalanced;
+        EXPECT_TRUE(half.unbalanced || half.has_mean_square);
+    }
+    EXPECT_LE(n_unbalanced, 20);  // a period of its beat with the bias
+    light.share_a = 0.8;
+    EXPECT_TRUE(light.halves(24).unbalanced);
+}
+
 TEST(LightMonitor, ABeamThatFadedLeavesTheDetuningAsTheMeanOfTwoHalves) {
     Light light{100};
     light.detuning_lambda = 0.01;

@@ -50,6 +50,7 @@ struct LightMonitorState {
     double noise_lambda2 = 0.0;       // of a sample, since it is noisy
     std::int32_t n_contradicted = 0;  // contradicted halves in a row, up to the debounce limit
     std::int8_t side = 0;             // 1: beam A was too bright for B in the last half; -1: B for A
+    std::int8_t last_side = 0;        // 1 or -1, whichever was seen last
     std::int32_t n_side = 0;          // halves in a row on this side, up to the debounce limit
     bool is_unbalanced = false;
     double end_lambda = 0.0;     // detuning at the end of the half before, by its last samples, if `has_end`
