@@ -6,57 +6,13 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/Dense>
 #include <zlg/numeric/estimate.hpp>
 
 #include "pieces.hpp"
+#include "scatter_regression.hpp"
 
 namespace zlg::calibration {
 namespace {
-
-// Weighted least squares whose standard errors come from the scatter of the observations, each for itself.
-//
-// The expected variances set the weights and need be right only roughly: the covariance is that of White
-// (Econometrica 48, 1980), each squared residual divided by 1 - leverage (HC2 of MacKinnon and White, J. Econometrics
-// 29, 1985). Where few observations decide, the standard error is widened by as many degrees of freedom as they are
-// (Satterthwaite).
-class ScatterRegression {
-public:
-    // One row of laws and one expected variance for each value.
-    ScatterRegression(const Eigen::MatrixXd& laws, const Eigen::VectorXd& values, const Eigen::VectorXd& expected);
-
-    [[nodiscard]] const Eigen::VectorXd& coefficient() const { return coefficient_; }
-    // Of the sum of the coefficients with these weights.
-    [[nodiscard]] double sigma(const Eigen::VectorXd& weights) const;
-
-private:
-    Eigen::VectorXd coefficient_;
-    Eigen::MatrixXd influence_;  // of each value on each coefficient
-    Eigen::VectorXd variance_;   // of each value, from its residual
-    Eigen::VectorXd expected_;
-};
-
-ScatterRegression::ScatterRegression(const Eigen::MatrixXd& laws, const Eigen::VectorXd& values,
-                                     const Eigen::VectorXd& expected)
-    : expected_{expected} {
-    const Eigen::MatrixXd weighted = expected.cwiseInverse().asDiagonal() * laws;
-    influence_ = (laws.transpose() * weighted).ldlt().solve(weighted.transpose());
-    coefficient_ = influence_ * values;
-    const Eigen::VectorXd residual = values - laws * coefficient_;
-    variance_.resize(values.size());
-    for (Eigen::Index k = 0; k < values.size(); ++k) {
-        const double leverage = laws.row(k).dot(influence_.col(k));
-        variance_[k] = residual[k] * residual[k] / std::fmax(1.0 - leverage, 1e-6);
-    }
-}
-
-double ScatterRegression::sigma(const Eigen::VectorXd& weights) const {
-    const Eigen::ArrayXd share = (influence_.transpose() * weights).array().square();
-    const double variance = (share * variance_.array()).sum();
-    const Eigen::ArrayXd part = share * expected_.array();
-    const double deciding = part.sum() * part.sum() / part.square().sum();
-    return numeric::widened(std::sqrt(variance), deciding - static_cast<double>(weights.size()));
-}
 
 // Fewer readings do not tell their scatter. The settled record is cut so finely that it gives about `many_readings` of
 // them, if its segments are longer than that.
@@ -167,6 +123,64 @@ void fit_law(const std::vector<Reading>& readings, double hz_per_count, BiasLaw&
     law.coefficient_taken_per_c = alpha;
 }
 
+// What knot j has of the value at a temperature.
+double share_of_knot(const BiasTable& table, std::size_t j, double temperature_c) {
+    const auto at_c = [&](std::size_t k) { return table.knots[k][0]; };
+    if (j > 0 && temperature_c < at_c(j))
+        return std::fmax(0.0, (temperature_c - at_c(j - 1)) / (at_c(j) - at_c(j - 1)));
+    const bool is_below = j + 1 < table.knots.size() && temperature_c > at_c(j);
+    return is_below ? std::fmax(0.0, (at_c(j + 1) - temperature_c) / (at_c(j + 1) - at_c(j))) : 1.0;
+}
+
+// Least squares on a course that is straight between knots with as many readings between two; empty where two knots are
+// the same to a hundredth of the span, or one has too few readings to tell its error.
+BiasTable fit_table(const std::vector<Reading>& readings, std::size_t n_knots, double counts_at_reference) {
+    std::vector<double> all_c;
+    for (const Reading& r : readings) all_c.push_back(r.temperature_c);
+    std::sort(all_c.begin(), all_c.end());
+    BiasTable table;
+    for (std::size_t j = 0; j < n_knots; ++j)
+        table.knots.push_back({all_c[j * (all_c.size() - 1) / (n_knots - 1)], 0.0});
+    for (std::size_t j = 1; j < n_knots; ++j)
+        if (!(table.knots[j][0] - table.knots[j - 1][0] > 0.01 * (all_c.back() - all_c.front()))) return {};
+    Columns columns{readings, static_cast<Eigen::Index>(n_knots)};
+    for (std::size_t k = 0; k < readings.size(); ++k)
+        for (std::size_t j = 0; j < n_knots; ++j)
+            columns.laws(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) =
+                share_of_knot(table, j, readings[k].temperature_c);
+    const ScatterRegression fit{columns.laws, columns.counts, columns.expected};
+    for (Eigen::Index j = 0; j < columns.laws.cols(); ++j) {
+        // The readings between two knots tell no others.
+        const double sigma = fit.sigma(Eigen::VectorXd::Unit(columns.laws.cols(), j), 2.0);
+        if (!std::isfinite(sigma)) return {};
+        table.knots[static_cast<std::size_t>(j)][1] = fit.coefficient()[j] / counts_at_reference - 1.0;
+        table.sigma.push_back(std::fmax(sigma, resolution_counts(readings)) / counts_at_reference);
+    }
+    return table;
+}
+
+// Each interval is halved as long as a knot leaves the coarser course, first the line, by more than its errors. Of a
+// smooth bend a course that is straight between its knots misses a third of that step, for each halving leaves a
+// quarter.
+BiasTable find_table(const std::vector<Reading>& readings, double hz_per_count, BiasLaw course) {
+    constexpr double least_sigmas = 4.0;
+    constexpr std::size_t least_knots = 3, enough_knots = 5, most_knots = 33;
+    bool bends = true;
+    for (std::size_t n = least_knots; n <= most_knots && (n <= enough_knots || bends); n = 2 * n - 1) {
+        BiasTable finer = fit_table(readings, n, course.bias_hz.value / hz_per_count);
+        if (finer.knots.empty()) break;
+        bends = false;
+        for (std::size_t k = 0; k < n; ++k) {
+            const double before = course.at_hz(finer.knots[k][0]) / course.bias_hz.value - 1.0;
+            const double step = std::abs(finer.knots[k][1] - before);
+            bends |= step > least_sigmas * finer.sigma[k];
+            finer.sigma[k] = std::hypot(finer.sigma[k], step / 3.0);
+        }
+        if (bends || !course.table.knots.empty()) course.table = std::move(finer);
+    }
+    return course.table;
+}
+
 // rms of the readings about the law, each over its expected standard deviation.
 double scatter_ratio(const std::vector<Reading>& readings, const BiasLaw& law, double hz_per_count) {
     double sum = 0.0;
@@ -203,6 +217,12 @@ std::string contradiction_of(const BiasLaw& law) {
 }  // namespace
 
 double BiasLaw::at_hz(double temperature_c) const {
+    if (!table.knots.empty() && std::isfinite(temperature_c)) {
+        double ratio = 1.0;
+        for (std::size_t j = 0; j < table.knots.size(); ++j)
+            ratio += share_of_knot(table, j, temperature_c) * table.knots[j][1];
+        return bias_hz.value * ratio;
+    }
     const double above_c = temperature_c - reference_temperature_c;
     return bias_hz.value * (std::isfinite(above_c) ? 1.0 + coefficient_taken_per_c * above_c : 1.0);
 }
@@ -233,6 +253,7 @@ BiasLaw find_bias_law(std::span<const LabLog> logs, double reference_temperature
                                          "hardly turns; a longer record, or a known rate, would tell",
                                          readings.size()));
     if (!law.bias_hz.determined) return law;
+    if (law.temperature_coefficient_per_c.determined) law.table = find_table(readings, hz_per_count, law);
     law.scatter_ratio = scatter_ratio(readings, law, hz_per_count);
     if (const std::string contradiction = contradiction_of(law); !contradiction.empty()) {
         law.contradicts = true;

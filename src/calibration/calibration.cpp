@@ -65,6 +65,8 @@ void add(const HalfWaveLaw& law, const DetuningScale& scale, Calibration& c) {
 }
 
 void add(const DriftLaw& law, Calibration& c) {
+    c.constants.push_back({"field.sensitivity_arcsec_s_g", "arcsec/(s G)", law.sensitivity_arcsec_s_g});
+    c.constants.push_back({"field.sensitivity_per_c", "1/C", law.sensitivity_per_c});
     c.constants.push_back({"drift.magnetic_arcsec_s", "arcsec/s", law.magnetic_arcsec_s});
     c.constants.push_back({"drift.magnetic_thermal_arcsec_s", "arcsec/s", law.magnetic_thermal_arcsec_s});
     c.constants.push_back({"drift.thermal_time_s", "s", law.thermal_time_s});
@@ -81,12 +83,13 @@ void add(const DriftLaw& law, Calibration& c) {
 
 // Where the logs differ in their rate, the error of the scale factor makes more of it than any drift.
 DriftLaw find_drift(std::span<const LabLog> logs, const std::vector<double>& rates_arcsec_s, double scale_arcsec,
-                    const BiasLaw& bias) {
+                    const BiasLaw& bias, std::span<const FieldCourse> field) {
     const bool is_one = std::ranges::all_of(rates_arcsec_s, [&](double r) { return r == rates_arcsec_s.front(); });
-    if (is_one) return find_drift_law(logs, scale_arcsec, rates_arcsec_s.front(), bias);
+    if (is_one) return find_drift_law(logs, scale_arcsec, rates_arcsec_s.front(), bias, field);
     DriftLaw law;
-    for (numeric::Estimate* each : {&law.magnetic_arcsec_s, &law.magnetic_thermal_arcsec_s, &law.thermal_time_s,
-                                    &law.nonmagnetic_arcsec_s, &law.random_walk_arcsec_sqrt_s})
+    for (numeric::Estimate* each :
+         {&law.magnetic_arcsec_s, &law.magnetic_thermal_arcsec_s, &law.thermal_time_s, &law.nonmagnetic_arcsec_s,
+          &law.random_walk_arcsec_sqrt_s, &law.sensitivity_arcsec_s_g, &law.sensitivity_per_c})
         *each = numeric::refused("the gyro turned at several rates; logs of one rate would tell");
     law.rest.worst_ratio = std::numeric_limits<double>::quiet_NaN();
     return law;
@@ -117,6 +120,9 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
     const std::span<const LabLog> seen = c.curve.determined ? std::span{straight} : logs;
     const BiasLoss loss = find_bias_loss(seen, bias, c.curve.determined ? 1 : 4);
     c.chi_higher = loss.higher;
+    c.bias_table = bias.table;
+    for (const numeric::Estimate& e : {bias.temperature_coefficient_per_c, bias.bias_hz})
+        if (!e.determined) c.bias_table = {.reason = e.reason};
     add(bias, loss, c);
     if (c.curve.determined)
         c.goodness.push_back({"curve_chi2_per_dof", c.curve.chi2_per_dof,
@@ -124,7 +130,10 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
     const HalfWaveLaw half_wave =
         find_half_wave_law(logs, reference_c, presumed.half_wave_temperature_coefficient_per_c);
     add(half_wave, find_detuning_scale(seen, half_wave, presumed.stepped_voltage), c);
-    add(find_drift(logs, rates_arcsec_s, presumed.scale_arcsec, bias), c);
+    DriftLaw drift = find_drift(logs, rates_arcsec_s, presumed.scale_arcsec, bias, presumed.field);
+    if (presumed.field.empty())
+        drift.sensitivity_arcsec_s_g = drift.sensitivity_per_c = numeric::refused("the field of a log is not known");
+    add(drift, c);
     add(find_lock_in_law(logs, rates_arcsec_s,
                          {.edge_s = presumed.bias_edge_s, .counts_per_turn = presumed.counts_per_turn}),
         c);

@@ -33,10 +33,11 @@ std::vector<Piece> turning_pieces(std::span<const LabLog> logs) {
 }
 
 // Counts that a tick lacks while the bias grows with temperature, for the half that comes second has more of it:
-// s (T/4) df/dt a second. They follow the helicity as a magnetic drift does, and are put back.
+// s (T/4) df/dt a second, by its slope over 1 C there. They follow the helicity as a magnetic drift does, and are put
+// back.
 double counts_of_warming(const Piece& p, const BiasLaw& bias, double tick_s) {
     if (!bias.bias_hz.determined || !std::isfinite(p.signed_rise_c)) return 0.0;
-    return 0.25 * tick_s * bias.bias_hz.value * bias.coefficient_taken_per_c * p.signed_rise_c;
+    return 0.25 * tick_s * (bias.at_hz(p.temperature_c + 0.5) - bias.at_hz(p.temperature_c - 0.5)) * p.signed_rise_c;
 }
 
 // Angles and their laws.
@@ -145,6 +146,7 @@ void refuse_thermal(const std::string& reason, DriftLaw& law) {
 void refuse_all(const std::string& reason, DriftLaw& law) {
     law.magnetic_arcsec_s = numeric::refused(reason);
     law.nonmagnetic_arcsec_s = numeric::refused(reason);
+    law.sensitivity_arcsec_s_g = law.sensitivity_per_c = numeric::refused(reason);
     law.random_walk_arcsec_sqrt_s = numeric::refused(reason);
     refuse_thermal(reason, law);
 }
@@ -243,6 +245,39 @@ double find(const Record& record, DriftLaw& law) {
     return walk;
 }
 
+double field_integral_g_s(const FieldCourse& field, const Piece& p) {
+    constexpr int samples = 1000;
+    double sum_g = 0.0;
+    for (int k = 0; k < samples; ++k) sum_g += field(p.start_s + p.length_s * (k + 0.5) / samples);
+    return sum_g * p.length_s / samples;
+}
+
+// too_few  why the temperatures tell no beta; empty: they may.
+// return   the walk, arcsec^2/s.
+double find_in_field(const Record& record, std::span<const FieldCourse> field, const std::string& too_few,
+                     double reference_c, DriftLaw& law) {
+    const Eigen::MatrixXd laws = record.laws(too_few.empty() ? 1 : 0, [&](const Piece& p, auto row) {
+        row(0) = p.mode * field_integral_g_s(field[p.log], p);
+        if (too_few.empty()) row(2) = row(0) * (p.temperature_c - reference_c);
+    });
+    const IncrementFit fit = fit_walk(record.angles, laws, record.border_variance);
+    take(record, fit, law);
+    const numeric::Estimate s = law.sensitivity_arcsec_s_g =
+        laws.col(0).any() ? law.magnetic_arcsec_s : numeric::refused("the field is 0");
+    if (!too_few.empty()) {
+        law.sensitivity_per_c = numeric::refused(too_few);
+    } else if (!(std::abs(s.value) > min_bend_sigmas * s.sigma)) {
+        law.sensitivity_per_c = numeric::refused("the sensitivity itself is within its error of 0");
+    } else {
+        const double beta = fit.coefficient[2] / s.value;
+        const Eigen::Vector3d by{-beta / s.value, 0.0, 1.0 / s.value};
+        law.sensitivity_per_c = numeric::estimated(beta, std::sqrt(by.dot(fit.covariance * by)));
+    }
+    law.magnetic_arcsec_s = numeric::refused("the field is known: what follows the mode is the sensitivity to it");
+    refuse_thermal(law.magnetic_arcsec_s.reason, law);
+    return fit.walk_variance_per_s;
+}
+
 bool has_both_modes(const std::vector<Piece>& pieces) {
     const auto in_mode = [](int mode) { return [mode](const Piece& p) { return p.mode == mode; }; };
     return std::any_of(pieces.begin(), pieces.end(), in_mode(1)) &&
@@ -257,7 +292,8 @@ RestCheck rest_of(std::span<const LabLog> logs, double scale_arcsec, double walk
 
 }  // namespace
 
-DriftLaw find_drift_law(std::span<const LabLog> logs, double scale_arcsec, double rate_arcsec_s, const BiasLaw& bias) {
+DriftLaw find_drift_law(std::span<const LabLog> logs, double scale_arcsec, double rate_arcsec_s, const BiasLaw& bias,
+                        std::span<const FieldCourse> field) {
     DriftLaw law;
     if (bias.contradicts) {
         refuse_all("counts, mode and bias_sign make no bias frequency together, so what follows the mode is not known",
@@ -274,7 +310,9 @@ DriftLaw find_drift_law(std::span<const LabLog> logs, double scale_arcsec, doubl
         refuse_all("one mode only: what follows the helicity cannot be separated from what does not", law);
         return law;
     }
-    const double walk = find(record, law);
+    const double walk =
+        field.empty() ? find(record, law)
+                      : find_in_field(record, field, too_few_temperatures(logs), bias.reference_temperature_c, law);
     law.rest = rest_of(logs, scale_arcsec, walk);
     if (!law.rest.at_rest)
         refuse_all(fmt::format("the gyro was moved: over {} ticks the angle scatters with {:.3g} times the variance of "

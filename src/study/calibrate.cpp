@@ -11,9 +11,11 @@
 #include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
+#include <zlg/recorded/environment.hpp>
 #include <zlg/recorded/log_compensation.hpp>
 #include <zlg/rig/bias_check.hpp>
 #include <zlg/study/calibrate.hpp>
+#include <zlg/twin/environment.hpp>
 
 namespace zlg::study {
 namespace {
@@ -115,6 +117,21 @@ bool read_by_one_slope(const Lab& lab) {
     });
 }
 
+// Of each log, as its head or the user says; none where one of them does not. Whether a file that a log names is still
+// the same nobody knows.
+std::vector<calibration::FieldCourse> fields_of(const CalibrationTask& task, const Lab& lab) {
+    std::vector<calibration::FieldCourse> all;
+    for (const config::Config& c : lab.configs) {
+        const bool is_unseen = c.field.kind == config::FieldKind::file && !config::is_given(task.said, "field.course");
+        if (c.field.kind == config::FieldKind::none || is_unseen) return {};
+        config::Config only;
+        only.field = c.field;
+        all.emplace_back(
+            [field = recorded::with_environment(only).field](double time_s) { return twin::field_g(field, time_s); });
+    }
+    return all;
+}
+
 // Of what is to be found, only what the user says is presumed, never what a log says of itself.
 calibration::Presumed presumed(const CalibrationTask& task, const Lab& lab) {
     const config::Config& of_logs = lab.configs.front();
@@ -126,7 +143,8 @@ calibration::Presumed presumed(const CalibrationTask& task, const Lab& lab) {
             .stepped_voltage = of_logs.perimeter.loop == config::Loop::digital,
             .read_by_slope = read_by_one_slope(lab),
             .bias_temperature_coefficient_per_c = task.said.gyro.bias_temperature_coefficient_per_c,
-            .half_wave_temperature_coefficient_per_c = task.said.piezo.half_wave_temperature_coefficient_per_c};
+            .half_wave_temperature_coefficient_per_c = task.said.piezo.half_wave_temperature_coefficient_per_c,
+            .field = fields_of(task, lab)};
 }
 
 std::vector<CalibratedLog> summaries(const std::vector<calibration::LabLog>& logs) {

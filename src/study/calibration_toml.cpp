@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <zlg/config/schema.hpp>
 #include <zlg/study/calibrate.hpp>
@@ -120,11 +121,15 @@ std::string calibration_toml(const CalibrationResult& result) {
         text += fmt::format("{} = {}\n", name, text_of(result.config, fmt::format("gyro.{}", name)));
     text += toml_section(result, "gyro");
     if (is_determined(result, chi_key)) text += list_line("bias_chi_higher", result.calibration.chi_higher);
+    const calibration::BiasTable& table = result.calibration.bias_table;
+    text += table.knots.empty()
+                ? fmt::format("# bias_temperature_table: not determined: {}\n", table.reason)
+                : fmt::format("bias_temperature_table = {:::.8g}\n", table.knots) + list_line("# +-", table.sigma, "");
     if (!result.reference_warning.empty()) text += fmt::format("# warning: {}\n", result.reference_warning);
     for (const Constant& c : result.calibration.constants)
         if (c.key == scale_name) text += scale_comment(c, result.calibration.curve.determined);
     text += "\n[perimeter]\n" + curve_section(result);
-    for (const char* section : {"piezo", "drift", "compensation"})
+    for (const char* section : {"piezo", "field", "drift", "compensation"})
         text += fmt::format("\n[{}]\n{}", section, toml_section(result, section));
     for (const Constant& c : result.calibration.constants)
         if (c.key == lock_in_key && c.estimate.determined)

@@ -77,6 +77,33 @@ class Calibrate(Simulated):
         self.assertIn("span", one["not_determined"]["gyro.bias_temperature_coefficient_per_c"])
         self.assertIn("gyro.bias_hz", one["constants"])
 
+    def test_a_bias_that_bends_and_a_known_field_leave_switches_as_good(self):
+        surroundings = {"temperature.profile": "[[0, 0], [125, 40], [250, 20]]", "field.kind": '"steps"',
+                        "gyro.bias_temperature_table": "[[0, -2e-3], [10, -4e-4], [20, 0], [30, -7e-4], [40, -3e-3]]",
+                        "field.course": "[[0, 0.5], [80, -0.4], [160, 0.3]]", "field.sensitivity_arcsec_s_g": 25.0,
+                        "field.sensitivity_per_c": -0.01}
+        logs = [self.simulate(f"{seed}.csv", seed=seed, **surroundings) for seed in (1, 2)]
+        toml = self.folder / "found.toml"
+        result = self.found(logs[0], "--out", toml)
+        self.assert_found(result, {key: surroundings[key] for key in surroundings if "sensitivity" in key})
+        self.assertIn("the field is known", result["not_determined"]["drift.magnetic_arcsec_s"])
+        self.assertGreaterEqual(len(result["bias_temperature_table"]["knots"]), 3)
+        self.assertIn("\nbias_temperature_table = [[", toml.read_text())
+        errors = []
+        for config in ((), ("--config", toml)):
+            angles = self.folder / "angles.csv"
+            self.succeed("process", logs[1], *config, "--out", angles, "--force")
+            final = AngleLog(angles).final
+            errors.append(sum(sum(final[k - 10:k + 40]) ** 2 for k in range(800, len(final) - 40, 400)))
+        self.assertLess(errors[1], 1.1 * errors[0])
+        # As its own log does, so does a configuration say the field.
+        lines = logs[0].read_text().splitlines(True)
+        silent = self.write("silent.csv", "".join(line for line in lines if not line.startswith("# field.")))
+        self.assertEqual(self.found(silent)["not_determined"]["field.sensitivity_per_c"],
+                         "the field of a log is not known")
+        said = self.found(silent, *settings({key: surroundings[key] for key in ("field.kind", "field.course")}))
+        self.assertEqual(said["constants"], result["constants"])
+
     def test_missing_columns_leave_their_constants_open(self):
         lines = self.simulate(duration=100).read_text().splitlines()
         rows = [line.split(",") for line in lines if not line.startswith("#")]

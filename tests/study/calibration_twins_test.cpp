@@ -109,7 +109,8 @@ std::map<std::string, Errors> errors_of_all() {
             logs,
             {.rate_arcsec_s = {s.rate_arcsec_s}, .stepped_voltage = s.config.perimeter.loop == config::Loop::digital});
         for (const calibration::Constant& c : found.constants) {
-            if (c.key == "compensation.lock_in_hz") continue;  // one rate does not tell it
+            // One rate does not tell the one, an unknown field not the others.
+            if (c.key == "compensation.lock_in_hz" || c.key.starts_with("field.")) continue;
             Errors& e = errors[c.key];
             if (!c.estimate.determined) {
                 ++e.refused;

@@ -21,6 +21,7 @@ using calibration::Constant;
 using nlohmann::json;
 using study::curve_signals;
 
+constexpr std::string_view table_name = "gyro.bias_temperature_table";
 constexpr std::string_view curve_name = "perimeter.discriminator_signal";
 
 std::string curve_text(const study::CalibrationResult& result) {
@@ -63,8 +64,11 @@ std::string calibration_text(const study::CalibrationResult& result) {
     }
     if (const std::vector<double>& higher = result.calibration.chi_higher; !higher.empty())
         text += fmt::format("gyro.bias_chi_higher = [{:.6g}]\n", fmt::join(higher, ", "));
+    const calibration::BiasTable& table = result.calibration.bias_table;
+    if (!table.knots.empty()) text += fmt::format("{} = {:::.6g}, +- {::.2g}\n", table_name, table.knots, table.sigma);
     for (const Constant& c : result.calibration.constants)
         if (!c.estimate.determined) text += fmt::format("{}: not determined: {}\n", c.key, c.estimate.reason);
+    if (table.knots.empty()) text += fmt::format("{}: not determined: {}\n", table_name, table.reason);
     text += curve_text(result);
     text += "\ngoodness of fit\n";
     for (const calibration::Goodness& g : result.calibration.goodness)
@@ -94,6 +98,8 @@ json calibration_json(const study::CalibrationResult& result) {
                          {"sigma_lambda", curve.sigma_lambda}};
     else
         not_determined[std::string{curve_name}] = curve.reason;
+    const calibration::BiasTable& table = result.calibration.bias_table;
+    if (table.knots.empty()) not_determined[std::string{table_name}] = table.reason;
     json goodness = json::object();
     for (const calibration::Goodness& g : result.calibration.goodness)
         goodness[g.name] = {{"value", g.value}, {"meaning", g.meaning}};
@@ -106,6 +112,7 @@ json calibration_json(const study::CalibrationResult& result) {
     return {{"constants", constants},
             {"not_determined", not_determined},
             {"bias_chi_higher", result.calibration.chi_higher},
+            {"bias_temperature_table", {{"knots", table.knots}, {"sigma", table.sigma}}},
             {"discriminator", discriminator},
             {"goodness", goodness},
             {"files", files},

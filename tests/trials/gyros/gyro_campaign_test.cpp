@@ -113,8 +113,10 @@ TEST(GyroCampaign, EveryLimitThatIsNotKeptIsNamed) {
         return complaints(std::vector(enough, bad)).size();
     };
     EXPECT_EQ(lines_of_many(1.0), 0u);
-    EXPECT_EQ(lines_of_many(0.8), 1u) << "0.89 rms";
-    EXPECT_EQ(lines_of_many(1.5), 1u);
+    EXPECT_EQ(lines_of_many(0.51), 0u);
+    EXPECT_EQ(lines_of_many(0.49), 1u);
+    EXPECT_EQ(lines_of_many(1.39), 0u);
+    EXPECT_EQ(lines_of_many(1.41), 1u);
     GyroOutcome alarmed = good;
     alarmed.alarms[18] = 1;
     ASSERT_EQ(complaints({alarmed}).size(), 1u);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <zlg/calibration/drift_law.hpp>
 #include <zlg/calibration/lab_log.hpp>
 #include <zlg/calibration/loss_curve.hpp>
 #include <zlg/numeric/estimate.hpp>
@@ -23,6 +24,7 @@ struct Presumed {
     bool read_by_slope = true;                        // all detunings were read by one and the same slope
     double bias_temperature_coefficient_per_c = 0.0;  // used where the logs hold a single temperature
     double half_wave_temperature_coefficient_per_c = 0.0;
+    std::vector<FieldCourse> field = {};  // of each log; none: not known
 };
 
 struct Constant {
@@ -41,6 +43,7 @@ struct Goodness {
 struct Calibration {
     std::vector<Constant> constants;
     std::vector<double> chi_higher = {};  // gyro.bias_chi_higher, with its bias_chi
+    BiasTable bias_table = {};            // gyro.bias_temperature_table, beside its line
     std::vector<Goodness> goodness;
     LossCurve curve;  // where it is determined, bias_chi and detuning_scale are found from logs that it has corrected
 };

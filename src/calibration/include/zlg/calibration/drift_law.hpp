@@ -9,8 +9,12 @@
 // walks. Om0 is the drift when the log begins; A and tau are separated only where the log bends, so they are refused
 // where it is straight, and Om0 then comes from the straight line. The non-magnetic part is all that does not change
 // sign with the mode, the rotation of the Earth included, less the rate that is given as known.
+//
+// Where the field B(t) of every log is known, the part that follows the helicity is S (1 + beta (T_c - T_ref)) B(t) in
+// place of Om0, A and tau.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include <zlg/calibration/angle_scatter.hpp>
@@ -20,7 +24,12 @@
 
 namespace zlg::calibration {
 
+// Gauss at a time since the first half of a log.
+using FieldCourse = std::function<double(double)>;
+
 struct DriftLaw {
+    numeric::Estimate sensitivity_arcsec_s_g;
+    numeric::Estimate sensitivity_per_c;
     numeric::Estimate magnetic_arcsec_s;
     numeric::Estimate magnetic_thermal_arcsec_s;
     numeric::Estimate thermal_time_s;
@@ -31,8 +40,9 @@ struct DriftLaw {
     std::int64_t dof = 0;
 };
 
-// bias  its law with temperature: while it warms, the halves of a tick differ.
+// bias   its law with temperature: while it warms, the halves of a tick differ.
+// field  of each log; none: not known.
 [[nodiscard]] DriftLaw find_drift_law(std::span<const LabLog> logs, double scale_arcsec, double rate_arcsec_s,
-                                      const BiasLaw& bias);
+                                      const BiasLaw& bias, std::span<const FieldCourse> field = {});
 
 }  // namespace zlg::calibration
