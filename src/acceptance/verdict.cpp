@@ -49,13 +49,14 @@ std::optional<Verdict> verdict_of(const Value& v, const Limit& limit, double ris
 }
 
 // Whether a record `longer` times as long decides as probably as not, to 1 %: its value is normal about the present one
-// with the variance that is lost.
+// with the variance that is lost of what the value scatters by (the predictive law; of a mean over noise that goes on
+// as white noise that is less than its uncertainty, which slow noise that may be hidden widens).
 bool is_even_chance(const Value& v, const Limit& limit, double risk, double longer) {
     Value later = v;
     later.hours *= longer;
     later.uncertainty /= std::sqrt(longer);
     if (v.longer == Longer::adds_degrees) later.degrees *= longer;
-    const boost::math::normal moves(v.value, v.uncertainty * std::sqrt(1.0 - 1.0 / longer));
+    const boost::math::normal moves(v.value, v.moves * v.uncertainty * std::sqrt(1.0 - 1.0 / longer));
     int decided = 0;
     for (int k = 0; k < 100; ++k) {
         later.value = boost::math::quantile(moves, (k + 0.5) / 100.0);

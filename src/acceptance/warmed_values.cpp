@@ -190,8 +190,10 @@ Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
 Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) {
     Found found;
     std::vector<std::array<double, 3>> runs;  // field, bias, weight
-    double weights = 0.0, field = 0.0, rate = 0.0, hours = 0.0;
-    double degrees = std::numeric_limits<double>::infinity();  // those of the run that knows its error least
+    double weights = 0.0, field = 0.0, rate = 0.0;
+    // The run that knows its error least; what a longer record gives is that of the run which it helps least.
+    Value of = measured(sensitivity, 0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0);
+    of.moves = 0.0;
     report::Series points = report::blank_series("runs", report::Mark::points);
     for (const StillAxis& axis : in_field) {
         const Value bias = bias_of(plan, axis);
@@ -201,8 +203,10 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
         weights += weight;
         field += weight * axis.run->field_mt;
         rate += weight * bias.value;
-        hours += bias.hours;
-        degrees = std::min(degrees, bias.degrees);
+        of.hours += bias.hours;
+        of.degrees = std::min(of.degrees, bias.degrees);
+        of.longer = std::max(of.longer, bias.longer);
+        of.moves = std::max(of.moves, bias.moves);
         report::add_point(points, axis.run->field_mt, bias.value);
         points.y_error.push_back(2.0 * bias.uncertainty);
     }
@@ -223,14 +227,14 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
                              "Bias of each run, with twice its standard uncertainty.", "field, mT", "bias, deg/h");
     f.series = {std::move(points)};
     found.figures = {std::move(f)};
-    found.values.push_back(measured(sensitivity, xy / xx, 1.0 / std::sqrt(xx), degrees, hours));
+    of.value = xy / xx;
+    of.uncertainty = 1.0 / std::sqrt(xx);
     if (const double free = static_cast<double>(runs.size()) - 2.0; free > 0.0) {
-        if (scatters(tested, free)) {
-            found.values.back().uncertainty *= std::sqrt(tested / free);
-            found.values.back().degrees = free;
-        }
-        found.values.push_back(deviation("magnetic_residual.deg_h", std::sqrt(squares / free), free, hours));
+        if (scatters(tested, free))
+            of = measured(sensitivity, of.value, of.uncertainty * std::sqrt(tested / free), free, of.hours);
+        found.values.push_back(deviation("magnetic_residual.deg_h", std::sqrt(squares / free), free, of.hours));
     }
+    found.values.push_back(std::move(of));
     return found;
 }
 
