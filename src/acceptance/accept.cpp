@@ -42,14 +42,18 @@ public:
             const bool has_counts = record.run->mapping.has("scale_arcsec") || !record.raw_logs.empty();
             if (has_counts && record.run->kind != RunKind::rate_table && !moved.wrong_scale.empty())
                 record.stops.push_back(moved.wrong_scale);
-            note(record);
+            result_.runs.push_back(
+                {record.run->number, record.run->kind, record.hours, record.logs, record.notes, record.stops});
         }
         std::vector<Value> values = moved.values;
         const auto take = [&](std::vector<Value> more) { std::ranges::move(more, std::back_inserter(values)); };
         // What raw logs tell goes before what the noise of any record does.
         if (const auto raw = raw_logs(); !raw.empty()) take(constants(raw));
         if (!still_.empty()) take(still_values(result_.plan, still_));
-        if (const auto switches = all_switches(); !switches.empty()) take(switch_values(switches, still_));
+        std::vector<SwitchRecord> switches;
+        for (RunRecord& record : records_)
+            if (is_still(record.run->kind)) std::ranges::move(record.switches, std::back_inserter(switches));
+        if (!switches.empty()) take(switch_values(switches, still_));
         for (const QuantityInfo& q : quantities()) judge_one(q, values);
         if (result_.passed()) result_.unit_risk = unit_risk(result_.quantities);
         return std::move(result_);
@@ -94,18 +98,6 @@ private:
         return all;
     }
 
-    void note(const RunRecord& record) {
-        const Run& run = *record.run;
-        TestedRun tested{.number = run.number,
-                         .kind = run.kind,
-                         .hours = record.hours,
-                         .logs = {},
-                         .notes = record.notes,
-                         .stops = record.stops};
-        for (const LogRecord& log : record.logs) tested.logs.push_back({log.file, log.checksum});
-        result_.runs.push_back(std::move(tested));
-    }
-
     static void look_at(RunRecord& record) {
         for (const study::AxisRecord& axis : record.axes) {
             record.hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
@@ -116,10 +108,10 @@ private:
 
     // A measurement under two names, or in two runs of one kind, would agree with itself too well.
     void require_new(const RunRecord& record) {
-        for (const LogRecord& log : record.logs)
+        for (const TestedLog& log : record.logs)
             if (!seen_.emplace(is_still(record.run->kind) ? RunKind::at_rest : record.run->kind, log.checksum).second)
                 throw logs::FormatError(fmt::format("{}: {} is in the plan once more; each measurement counts once",
-                                                    record.run->place, log.path));
+                                                    record.run->place, log.file));
     }
 
     [[nodiscard]] std::vector<std::string> raw_logs() const {
@@ -128,13 +120,6 @@ private:
             if (record.run->kind != RunKind::rate_table && record.run->kind != RunKind::magnetic &&
                 record.stops.empty())
                 all.insert(all.end(), record.raw_logs.begin(), record.raw_logs.end());
-        return all;
-    }
-
-    [[nodiscard]] std::vector<SwitchRecord> all_switches() const {
-        std::vector<SwitchRecord> all;
-        for (const RunRecord& record : records_)
-            if (is_still(record.run->kind)) all.insert(all.end(), record.switches.begin(), record.switches.end());
         return all;
     }
 
@@ -185,13 +170,9 @@ private:
 }  // namespace
 
 bool Acceptance::passed() const {
-    bool any = false;
-    for (const Judged& one : quantities) {
-        if (!one.limit) continue;
-        any = true;
-        if (one.verdict != Verdict::pass) return false;
-    }
-    return any;
+    const auto counts = [this](auto of) { return std::ranges::count_if(quantities, of); };
+    const auto limited = counts([](const Judged& one) { return one.limit.has_value(); });
+    return limited > 0 && limited == counts([](const Judged& one) { return one.verdict == Verdict::pass; });
 }
 
 Acceptance accept(const AcceptTask& task) { return Test{task}.finish(); }

@@ -227,7 +227,7 @@ RunRecord read_run(const Plan& plan, const Run& run, const config::Config& said)
     for (const std::string& file : run.files) {
         const std::string path = path_of(plan, file);
         const LogKind kind = is_mapped(run) ? LogKind::unknown : logs::recognise(path);
-        record.logs.push_back({.file = file, .path = path, .checksum = logs::hash_of_file(path)});
+        record.logs.push_back({.file = file, .checksum = logs::hash_of_file(path)});
         if (is_angles(kind))
             read_angles(plan, said, path, record);
         else if (is_raw(kind))

@@ -6,19 +6,12 @@
 #include <string>
 #include <vector>
 
-#include <zlg/acceptance/plan.hpp>
-#include <zlg/config/config.hpp>
+#include <zlg/acceptance/accept.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/study/axis.hpp>
 #include <zlg/study/switch_table.hpp>
 
 namespace zlg::acceptance {
-
-struct LogRecord {
-    std::string file;  // as the plan names it
-    std::string path;
-    std::uint64_t checksum = 0;
-};
 
 // What one raw log shows of its switches.
 struct SwitchRecord {
@@ -34,7 +27,7 @@ struct SwitchRecord {
 
 struct RunRecord {
     const Run* run = nullptr;
-    std::vector<LogRecord> logs;
+    std::vector<TestedLog> logs;
     std::vector<study::AxisRecord> axes;
     std::vector<std::string> raw_logs;  // paths
     std::vector<SwitchRecord> switches;

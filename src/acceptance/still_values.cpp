@@ -105,19 +105,21 @@ Value together(const std::vector<Value>& runs) {
     Value v = runs.front();
     if (runs.size() == 1) return v;
     const auto n = static_cast<double>(runs.size());
-    double within = 0.0, own_degrees = 0.0, scatter = 0.0, tested = 0.0;
+    double within = 0.0, own_degrees = 0.0, scatter = 0.0, tested = 0.0, moved = 0.0;
     v.value = v.hours = 0.0;
     for (const Value& run : runs) v.value += run.value / n, v.hours += run.hours;
     for (const Value& run : runs) {
         const double squared = run.uncertainty * run.uncertainty;
         within += squared;
         own_degrees += squared * squared / run.degrees;
+        moved += squared * run.moves * run.moves;
         scatter += std::pow(run.value - v.value, 2) / (n - 1.0);
         tested += std::pow(run.value - v.value, 2) / squared;
     }
     const bool differ = scatters(tested, n - 1.0);
     v.uncertainty = std::sqrt(differ ? scatter / n : within) / (differ ? 1.0 : n);
     v.degrees = differ ? n - 1.0 : within * within / own_degrees;
+    v.moves = differ ? 1.0 : std::sqrt(moved / within);
     v.longer = differ ? Longer::adds_degrees : std::ranges::max_element(runs, {}, &Value::longer)->longer;
     v.reason += fmt::format("{}mean of {} records{}", v.reason.empty() ? "" : ", ", n,
                             differ ? ", which differ by more than their noise" : "");
@@ -133,6 +135,7 @@ Value bias_of(const Plan& plan, const StillAxis& of) {
             .degrees = axis.mean_degrees};
     v.hours = known_s(axis) / 3600.0;
     v.longer = axis.mean_white > 0.5 ? Longer::keeps_degrees : Longer::helps_not;
+    v.moves = axis.mean_white_sigma_arcsec_s / v.uncertainty;
     if (axis.modes && axis.modes->segments.size() > 1) {
         const numeric::Estimate& part = axis.modes->nonmagnetic_arcsec_s;
         if (!part.determined) return not_determined(v.name, fmt::format("run {}: {}", of.run->number, part.reason));
@@ -141,6 +144,7 @@ Value bias_of(const Plan& plan, const StillAxis& of) {
         v.uncertainty = scatter.sigma;
         v.degrees = scatter.degrees;
         v.longer = Longer::adds_degrees;
+        v.moves = 1.0;
         v.reason = "non-magnetic drift of a switched gyro";
     }
     if (const auto earth = earth_about(plan.unit, of.run->axis)) {

@@ -19,15 +19,20 @@ double student_above(double distance, double degrees) {
     return boost::math::cdf(boost::math::complement(law, distance));
 }
 
+// boost::math overflows at less than 1e-12 of a large order, where nothing is left.
+double not_too_far(double x, double order) { return std::max(x, 1e-9 * order); }
+
 // degrees s^2/truth^2 follows chi-square: the truth is above x where that is below degrees s^2/x^2.
 double chi_above(const Value& v, double x) {
     if (!(x > 0.0)) return 1.0;
-    return boost::math::gamma_p(0.5 * v.degrees, 0.5 * v.degrees * v.value * v.value / (x * x));
+    const double half = 0.5 * std::min(v.degrees, 1e8);
+    return boost::math::gamma_p(half, not_too_far(half * std::pow(v.value / x, 2), half));
 }
 
 double poisson_above(const Value& v, double x) {
     if (!(x > 0.0)) return x < 0.0 || v.value > 0.0 ? 1.0 : 0.0;
-    return boost::math::gamma_q(std::round(v.value * v.hours) + 1.0, x * v.hours);
+    const double order = std::round(v.value * v.hours) + 1.0;
+    return boost::math::gamma_q(order, not_too_far(x * v.hours, order));
 }
 
 // A magnitude is below 0 with no probability, whatever its error; a value without one is where it is.
@@ -49,13 +54,14 @@ std::optional<Verdict> verdict_of(const Value& v, const Limit& limit, double ris
 }
 
 // Whether a record `longer` times as long decides as probably as not, to 1 %: its value is normal about the present one
-// with the variance that is lost.
+// with the variance that is lost of what the value scatters by (the predictive law; of a mean over noise that goes on
+// as white noise that is less than its uncertainty, which slow noise that may be hidden widens).
 bool is_even_chance(const Value& v, const Limit& limit, double risk, double longer) {
     Value later = v;
     later.hours *= longer;
     later.uncertainty /= std::sqrt(longer);
     if (v.longer == Longer::adds_degrees) later.degrees *= longer;
-    const boost::math::normal moves(v.value, v.uncertainty * std::sqrt(1.0 - 1.0 / longer));
+    const boost::math::normal moves(v.value, v.moves * v.uncertainty * std::sqrt(1.0 - 1.0 / longer));
     int decided = 0;
     for (int k = 0; k < 100; ++k) {
         later.value = boost::math::quantile(moves, (k + 0.5) / 100.0);

@@ -84,7 +84,8 @@ struct Settling {
 
 // Each mean of the course, over the quarter of its time around it, against that of the last quarter of the run. What
 // it may be off by: noise, from the steps of the second half, and the end itself, which may still move: of a decay
-// that takes up to 0.85 of the run three times what the last quarter differs by from the one before is left.
+// that takes up to 0.85 of the run three times what the last quarter differs by from the one before, beyond noise, is
+// left.
 Settling settling_in(const std::vector<Point>& course, double band) {
     const std::size_t n = course.size(), quarter = n / 4;
     std::vector<double> sums{0.0};
@@ -95,12 +96,14 @@ Settling settling_in(const std::vector<Point>& course, double band) {
     double steps = 0.0;
     for (std::size_t k = n / 2 + 1; k < n; ++k) steps += std::pow(course[k].rate - course[k - 1].rate, 2);
     const double variance = 0.5 * steps / static_cast<double>(n - n / 2 - 1), end = mean(n - quarter, n);
-    const double moves = 3.0 * std::abs(mean(n - 2 * quarter, n - quarter) - end);
+    const double apart = mean(n - 2 * quarter, n - quarter) - end;
+    const double moves = 3.0 * std::sqrt(std::max(0.0, apart * apart - 2.0 * variance / static_cast<double>(quarter)));
     Settling s;
     for (std::size_t k = 0; k < n; ++k) {
         const std::size_t from = k - k / 8, to = std::min(n, k + k / 8 + 1);
         const double off = std::abs(mean(from, to) - end), parts = 1.0 / static_cast<double>(to - from);
-        const double slack = z_95 * std::sqrt(variance * (parts + 1.0 / static_cast<double>(quarter))) + moves;
+        const double slack =
+            std::hypot(z_95 * std::sqrt(variance * (parts + 1.0 / static_cast<double>(quarter))), moves);
         const double time_s = k + 1 < n ? 0.5 * (course[k].time_s + course[k + 1].time_s) : course[k].time_s;
         if (off > band) s.seen_s = time_s;
         if (off - slack > band) s.earliest_s = time_s;
@@ -150,10 +153,10 @@ Value settling_of(const RunRecord& record, std::size_t index, double band, std::
     if (!(found.latest_s < 0.75 * length_s))
         return not_determined(settling, "needs a longer run: at the end it is not sure that the bias has settled");
     // Known to the length of a stretch.
-    const double off_s = std::max(found.latest_s - found.seen_s, found.seen_s - found.earliest_s) +
-                         length_s / static_cast<double>(course.size());
-    Value v =
-        measured(settling, found.seen_s, off_s / z_95, std::numeric_limits<double>::infinity(), length_s / 3600.0);
+    const double stretch_s = length_s / static_cast<double>(course.size());
+    const double off_s = std::max(found.latest_s - found.seen_s, found.seen_s - found.earliest_s);
+    Value v = measured(settling, found.seen_s, std::hypot(off_s / z_95, stretch_s / std::sqrt(12.0)),
+                       std::numeric_limits<double>::infinity(), length_s / 3600.0);
     v.reason = "last time outside the band about the last quarter of the run";
     return v;
 }
@@ -190,8 +193,10 @@ Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
 Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) {
     Found found;
     std::vector<std::array<double, 3>> runs;  // field, bias, weight
-    double weights = 0.0, field = 0.0, rate = 0.0, hours = 0.0;
-    double degrees = std::numeric_limits<double>::infinity();  // those of the run that knows its error least
+    double weights = 0.0, field = 0.0, rate = 0.0;
+    // The run that knows its error least; what a longer record gives is that of the run which it helps least.
+    Value of = measured(sensitivity, 0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0);
+    of.moves = 0.0;
     report::Series points = report::blank_series("runs", report::Mark::points);
     for (const StillAxis& axis : in_field) {
         const Value bias = bias_of(plan, axis);
@@ -201,8 +206,10 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
         weights += weight;
         field += weight * axis.run->field_mt;
         rate += weight * bias.value;
-        hours += bias.hours;
-        degrees = std::min(degrees, bias.degrees);
+        of.hours += bias.hours;
+        of.degrees = std::min(of.degrees, bias.degrees);
+        of.longer = std::max(of.longer, bias.longer);
+        of.moves = std::max(of.moves, bias.moves);
         report::add_point(points, axis.run->field_mt, bias.value);
         points.y_error.push_back(2.0 * bias.uncertainty);
     }
@@ -223,14 +230,14 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
                              "Bias of each run, with twice its standard uncertainty.", "field, mT", "bias, deg/h");
     f.series = {std::move(points)};
     found.figures = {std::move(f)};
-    found.values.push_back(measured(sensitivity, xy / xx, 1.0 / std::sqrt(xx), degrees, hours));
+    of.value = xy / xx;
+    of.uncertainty = 1.0 / std::sqrt(xx);
     if (const double free = static_cast<double>(runs.size()) - 2.0; free > 0.0) {
-        if (scatters(tested, free)) {
-            found.values.back().uncertainty *= std::sqrt(tested / free);
-            found.values.back().degrees = free;
-        }
-        found.values.push_back(deviation("magnetic_residual.deg_h", std::sqrt(squares / free), free, hours));
+        if (scatters(tested, free))
+            of = measured(sensitivity, of.value, of.uncertainty * std::sqrt(tested / free), free, of.hours);
+        found.values.push_back(deviation("magnetic_residual.deg_h", std::sqrt(squares / free), free, of.hours));
     }
+    found.values.push_back(std::move(of));
     return found;
 }
 

@@ -45,7 +45,8 @@ struct Record {
     std::vector<Piece> pieces;
     std::vector<Increment> angles;
     double border_variance;
-    double span_s = 0.0;  // longest log
+    double span_s = 0.0;     // longest log
+    double segment_s = 0.0;  // longest settled record between two switches
 
     Record(std::span<const LabLog> logs, double scale_arcsec, double rate_arcsec_s, const BiasLaw& bias)
         : pieces{turning_pieces(logs)}, border_variance{scale_arcsec * scale_arcsec / 12.0} {
@@ -54,6 +55,8 @@ struct Record {
             angles.push_back({scale_arcsec * counts - rate_arcsec_s * p.length_s, p.length_s, p.chain});
             span_s = std::max(span_s, p.start_s + p.length_s);
         }
+        for (const Piece& p : pieces_of(logs, std::numeric_limits<double>::infinity()))
+            segment_s = std::max(segment_s, p.length_s);
     }
 
     [[nodiscard]] Eigen::Index n() const { return std::ssize(pieces); }
@@ -195,34 +198,37 @@ std::string why_no_bend(const Record& record, const IncrementFit& straight) {
         record.span_s, 1e3 * slope, 1e3 * sigma(straight, 2));
 }
 
-// Om0 and Om_nm where A and tau are not known: the mean over all warmings from 1/20 to 10 times the span, each weighted
-// by how well it fits, with the spread between them.
+// Om0 and Om_nm where A and tau are not known: the mean over all warmings from two segments, for a quicker one is
+// over before both modes were seen, to 10 times the span, each weighted by how well it fits, with the spread between
+// them. The prior of log tau is the reference prior beside an unknown A (Bernardo and Smith, Bayesian Theory, 1994):
+// the speed at which the direction of the law, without the constants, turns. Its square is the information of log tau
+// at A = 1 times the variance of A at a known tau. So times that look alike, as all slow warmings do, count once.
 IncrementFit mean_over_times(const Record& record, double walk) {
     constexpr int n_times = 24;
-    const double low = std::log(record.span_s / 20.0);
+    const double low = std::log(std::min(2.0 * record.segment_s, record.span_s / 20.0));
     const double high = std::log(record.span_s * 10.0);
     std::vector<IncrementFit> fits;
+    std::vector<double> weights;
     for (int k = 0; k <= n_times; ++k) {
         const double tau_s = std::exp(low + (high - low) * k / n_times);
         fits.push_back(fit_known(record.angles, exponential_laws(record, tau_s), record.border_variance, walk));
+        const Eigen::MatrixXd with_tau = exponential_laws_and_tau(record, tau_s, 1.0);
+        const IncrementFit of_tau = fit_known(record.angles, with_tau, record.border_variance, walk);
+        const double turn = fits.back().covariance(2, 2) / of_tau.covariance(3, 3);
+        weights.push_back(turn > 0.0 ? tau_s * std::sqrt(turn) : 0.0);
     }
-    double best = fits.front().residual;
-    for (const IncrementFit& f : fits) best = std::min(best, f.residual);
-    // The weights of warmings that do not fit vanish; that of the best is 1.
-    const auto weight = [best](const IncrementFit& f) { return std::exp(-0.5 * (f.residual - best)); };
+    // The weights of warmings that do not fit vanish.
+    const double best = std::ranges::min_element(fits, {}, &IncrementFit::residual)->residual;
+    double all = 0.0;
+    for (std::size_t k = 0; k < fits.size(); ++k) all += weights[k] *= std::exp(-0.5 * (fits[k].residual - best));
     IncrementFit mean = fits.front();
     mean.residual = best;
     mean.coefficient.setZero();
     mean.covariance.setZero();
-    double weights = 0.0;
-    for (const IncrementFit& f : fits) {
-        weights += weight(f);
-        mean.coefficient += weight(f) * f.coefficient;
-    }
-    mean.coefficient /= weights;
-    for (const IncrementFit& f : fits) {
-        const Eigen::VectorXd apart = f.coefficient - mean.coefficient;
-        mean.covariance += weight(f) / weights * (f.covariance + apart * apart.transpose());
+    for (std::size_t k = 0; k < fits.size(); ++k) mean.coefficient += weights[k] / all * fits[k].coefficient;
+    for (std::size_t k = 0; k < fits.size(); ++k) {
+        const Eigen::VectorXd apart = fits[k].coefficient - mean.coefficient;
+        mean.covariance += weights[k] / all * (fits[k].covariance + apart * apart.transpose());
     }
     return mean;
 }

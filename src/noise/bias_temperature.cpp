@@ -94,7 +94,9 @@ struct Fit {
     [[nodiscard]] bool shows(Eigen::Index k) const { return std::abs(value[k]) > sigmas * sigma[k] && sigma[k] > 0.0; }
 };
 
-// -2 log of the restricted likelihood, with its scale at its best, is least at the ratio of walk to white noise.
+// The mean over white noise and walks, in ratios three apart, each with its restricted likelihood at the best scale: a
+// walk that does not show may be there, and makes the error larger (Box and Tiao, Bayesian Inference in Statistical
+// Analysis, 1973).
 Fit fit_of(const Stretches& s, Eigen::Index order) {
     std::vector<Eigen::Index> columns;
     for (Eigen::Index k = 0; k < n_laws; ++k)
@@ -106,7 +108,8 @@ Fit fit_of(const Stretches& s, Eigen::Index order) {
         for (Eigen::Index j = 0; j < n; ++j) walk(i, j) = static_cast<double>(std::min(i, j));
     Fit fit;
     fit.dof = static_cast<double>(n - laws.cols());
-    double least = std::numeric_limits<double>::infinity();
+    std::vector<Fit> fits;
+    std::vector<double> objectives;  // -2 log of the likelihood
     for (double ratio = 0.0; ratio < 200.0; ratio = ratio == 0.0 ? 1e-4 : 3.0 * ratio) {
         const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd::Identity(n, n) + ratio * walk);
         const Eigen::MatrixXd a = root.matrixL().solve(laws);
@@ -115,14 +118,20 @@ Fit fit_of(const Stretches& s, Eigen::Index order) {
         const Eigen::VectorXd value = normal.solve(a.transpose() * y);
         const double squares = (y - a * value).squaredNorm();
         const Eigen::MatrixXd l = root.matrixL(), m = normal.matrixL();
-        const double objective =
-            2.0 * (l.diagonal().array().log().sum() + m.diagonal().array().log().sum()) + fit.dof * std::log(squares);
-        if (!(objective < least)) continue;
-        least = objective;
+        objectives.push_back(2.0 * (l.diagonal().array().log().sum() + m.diagonal().array().log().sum()) +
+                             fit.dof * std::log(std::max(squares, 1e-300)));
         const Eigen::MatrixXd inverse = normal.solve(Eigen::MatrixXd::Identity(laws.cols(), laws.cols()));
-        fit.value(columns) = value;
-        fit.sigma(columns) = (inverse.diagonal() * (squares / fit.dof)).cwiseSqrt();
+        fits.emplace_back();
+        fits.back().value(columns) = value;
+        fits.back().sigma(columns) = (inverse.diagonal() * (squares / fit.dof)).cwiseSqrt();
     }
+    const double least = *std::ranges::min_element(objectives);
+    double all = 0.0;
+    for (double& each : objectives) all += each = std::exp(0.5 * (least - each));
+    for (std::size_t k = 0; k < fits.size(); ++k) fit.value += objectives[k] / all * fits[k].value;
+    for (std::size_t k = 0; k < fits.size(); ++k)
+        fit.sigma += objectives[k] / all * (fits[k].sigma.cwiseAbs2() + (fits[k].value - fit.value).cwiseAbs2());
+    fit.sigma = fit.sigma.cwiseSqrt();
     return fit;
 }
 

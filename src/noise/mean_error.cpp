@@ -120,7 +120,7 @@ MeanError mean_error(std::span<const double> rates, std::span<const double> half
     // A Student law has E v^2/(E v)^2 = (degrees - 2)/(degrees - 4).
     const double spread = square / every / (variance * variance);
     return {std::sqrt(variance), (4.0 * spread - 2.0) / (spread - 1.0),
-            std::exp(laws.front().log_likelihood - most) / every};
+            std::exp(laws.front().log_likelihood - most) / every, std::sqrt(laws.front().variance)};
 }
 
 }  // namespace zlg::noise

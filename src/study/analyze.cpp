@@ -220,6 +220,7 @@ void take_mean_error(AxisRecord& record, AxisResult& axis) {
     axis.mean_sigma_arcsec_s = error.sigma;
     axis.mean_degrees = error.degrees;
     axis.mean_white = error.white;
+    axis.mean_white_sigma_arcsec_s = error.white_sigma;
 }
 
 AxisResult analyzed(const AnalysisTask& task, AxisRecord record) {

@@ -47,6 +47,21 @@ TEST(Verdict, a_standard_deviation_has_the_bounds_of_chi_square) {
     EXPECT_EQ(judge(s, at_most(0.740), 0.05).verdict, Verdict::undecided);
 }
 
+// However far the limit is, and however well the value is known.
+TEST(Verdict, a_limit_may_be_as_far_as_it_likes) {
+    for (const double degrees : {1.0, 10.0, 4000.0, 1e6, 1e12})
+        for (const double far : {1e-300, 1e-9, 1e-4, 1e4, 1e9, 1e300}) {
+            Value v = student(1.0, 0.1, degrees);
+            v.law = Law::chi;
+            EXPECT_EQ(judge(v, at_most(far), 0.05).verdict, far > 1.0 ? Verdict::pass : Verdict::fail)
+                << degrees << far;
+            v.law = Law::poisson;
+            v.value = degrees;
+            if (far <= 1e-4 || far > 1e12)
+                EXPECT_EQ(judge(v, at_most(far), 0.05).verdict, far > 1.0 ? Verdict::pass : Verdict::fail) << far;
+        }
+}
+
 // No event in T: the rate is below ln(20)/T = 2.996/T at 95 %.
 TEST(Verdict, no_event_is_no_proof_of_none) {
     Value none{.name = "alarms.per_h",

@@ -20,7 +20,8 @@ def means_of(values, length):
     return values[: len(values) // length * length].reshape(-1, length).mean(axis=1)
 
 
-# The variance of a record's mean over white noise, walks and flicker, each with its restricted likelihood: zlg/noise/mean_error.hpp.
+# The variance of a record's mean over white noise, walks and flicker, each with its restricted likelihood: zlg/noise/mean_error.hpp;
+# its degrees of freedom, and the error of the mean of white noise.
 def error_of_mean(rates):
     means = means_of(rates, max(1, len(rates) // 64))
     n, k = len(means), np.arange(1, len(means))
@@ -39,7 +40,7 @@ def error_of_mean(rates):
     variances = (1.0 + np.concatenate(ratios)) * sums / n
     variance = (weights * variances).sum() / (n - 3)
     spread = (weights * variances**2).sum() / ((n - 3) * (n - 5)) / variance**2
-    return math.sqrt(variance), (4.0 * spread - 2.0) / (spread - 1.0)
+    return math.sqrt(variance), (4.0 * spread - 2.0) / (spread - 1.0), math.sqrt(variances[0] / (n - 3))
 
 
 def student_95(degrees):
@@ -84,7 +85,7 @@ class Accept(CliTest):
         self.assertTrue(found["passed"])
         bias = quantities["bias.deg_h"]
         self.assertAlmostEqual(bias["value"], rates.mean(), places=12)
-        uncertainty, degrees = error_of_mean(rates)
+        uncertainty, degrees, _ = error_of_mean(rates)
         self.assertGreater(uncertainty, 3.0 / math.sqrt(20000))
         self.assertAlmostEqual(bias["uncertainty"], uncertainty, delta=1e-9)
         self.assertAlmostEqual(bias["degrees_of_freedom"], degrees, delta=1e-6)
@@ -96,17 +97,18 @@ class Accept(CliTest):
         self.assertIsNone(quantities["half_wave.v"]["value"])
 
     def test_a_bias_at_its_limit_is_undecided_and_the_time_of_an_even_chance_is_right(self):
-        # Half a quantile of Student's law from the limit; in a record L times as long the mean is known to u/sqrt(L) and moves by u sqrt(1 - 1/L).
+        # Half a quantile of Student's law from the limit; in a record L times as long the mean is known to u/sqrt(L), and moves by s sqrt(1 - 1/L),
+        # s that of white noise.
         rates = white(20000, 3.0)
         rates += 0.5 - rates.mean()
-        uncertainty, degrees = error_of_mean(rates)
+        uncertainty, degrees, white_error = error_of_mean(rates)
         limit = 0.5 + 0.5 * student_95(degrees) * uncertainty
         plan = self.plan([self.static(self.rates("a.csv", rates))], f'"bias.deg_h" = {{ max = {limit} }}\n')
         found, quantities = self.judged(plan, 1)
         self.assertFalse(found["passed"])
         self.assertEqual(quantities["bias.deg_h"]["verdict"], "undecided")
         longer = 1.0 + quantities["bias.deg_h"]["more_hours"] * 3600.0 / 2000.0
-        guard, moves = student_95(degrees) / math.sqrt(longer), math.sqrt(1.0 - 1.0 / longer)
+        guard, moves = student_95(degrees) / math.sqrt(longer), white_error / uncertainty * math.sqrt(1.0 - 1.0 / longer)
         beyond = [(guard - side * 0.5 * student_95(degrees)) / moves for side in (-1.0, 1.0)]
         self.assertAlmostEqual(sum(0.5 * math.erfc(x / math.sqrt(2.0)) for x in beyond), 0.5, delta=0.02)
 
@@ -352,7 +354,7 @@ class Accept(CliTest):
             second = angle[2 * m:] - 2.0 * angle[m:-m] + angle[:-2 * m]
             tau = m / 100.0
             self.assertAlmostEqual(math.sqrt(walk**2 / tau + 3.0 * rounding**2 / tau**2) / math.sqrt(np.mean(second**2) / 2.0 / tau**2), 1.0, delta=0.06)
-        uncertainty, _ = error_of_mean(100.0 * increments)
+        uncertainty = error_of_mean(100.0 * increments)[0]
         self.assertAlmostEqual(quantities["bias.deg_h"]["uncertainty"], uncertainty, delta=1e-6 * uncertainty)
 
 

@@ -53,6 +53,7 @@ struct Value {
     double hours = 0.0;  // of the record from which it comes
     std::string reason;  // why it is not determined, or what the value is
     Longer longer = Longer::adds_degrees;
+    double moves = 1.0;  // part of the uncertainty by which a much longer record moves the value, a standard deviation
 };
 
 [[nodiscard]] Value not_determined(std::string_view name, std::string reason);

@@ -7,8 +7,8 @@
 // Generalised least squares on angles between borders of settled pieces, the walk by restricted maximum likelihood (see
 // increment_fit.hpp), tau by separable least squares: each border is rounded once (scale^2/12), the angle between
 // walks. Om0 is the drift when the log begins; A and tau are separated only where the log bends, so they are refused
-// where it is straight, and Om0 then comes from the straight line. The non-magnetic part is all that does not change
-// sign with the mode, the rotation of the Earth included, less the rate that is given as known.
+// where it is straight, and Om0 is then the mean over all warmings that may be. The non-magnetic part is all that does
+// not change sign with the mode, the rotation of the Earth included, less the rate that is given as known.
 //
 // Where the field B(t) of every log is known, the part that follows the helicity is S (1 + beta (T_c - T_ref)) B(t) in
 // place of Om0, A and tau.

@@ -4,7 +4,7 @@
 //   rate = b_0 + b_1 x + ... + b_p x^p + h d + input (s_0 + s_1 x + ... + s_p x^p)
 //
 // x is the temperature less its mean, d +1 while it rises and -1 while it falls. Generalised least squares over means
-// of equal stretches, whose errors are white noise and a random walk, in the ratio of the greatest restricted
+// of equal stretches, whose errors are white noise and a random walk, averaged over their ratio by the restricted
 // likelihood (Patterson and Thompson, 1971): a bias that walks passes for none of the temperature. p is the highest
 // order up to 3 whose own coefficient is above three of its errors.
 

@@ -32,6 +32,7 @@ struct MeanError {
     double sigma = std::numeric_limits<double>::quiet_NaN();
     double degrees = 1.0;  // of freedom of a Student law with that kurtosis; 4 or more where sigma is known
     double white = 0.0;    // probability that the noise is white alone, so that a longer record knows the mean better
+    double white_sigma = std::numeric_limits<double>::quiet_NaN();  // sigma if it is
 };
 
 // rates  of equal intervals one after the other, NaN where not known; from 128 on they are joined to 64 or some more.

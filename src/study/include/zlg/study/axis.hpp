@@ -68,6 +68,7 @@ struct AxisResult {
     double mean_sigma_arcsec_s = 0.0;
     double mean_degrees = 1.0;                       // of freedom of that
     double mean_white = 0.0;                         // probability that its noise is white alone
+    double mean_white_sigma_arcsec_s = 0.0;          // what it may differ by if it is
     std::vector<deviations::DeviationCurve> curves;  // those asked for
     // What readouts are taken from: the first of oadev, adev, totdev that was asked for, or else oadev at octaves.
     // Without points where the record has none.
