@@ -81,11 +81,9 @@ py::dict calibrate(const std::vector<std::string>& names, const py::dict& held,
     if (result.calibration.bias_table.knots.empty())
         not_determined["gyro.bias_temperature_table"] = result.calibration.bias_table.reason;
     return py::dict("constants"_a = constants, "not_determined"_a = not_determined,
-                    "bias_chi_higher"_a = result.calibration.chi_higher,
-                    "bias_temperature_table"_a = result.calibration.bias_table.knots,
-                    "discriminator"_a = discriminator(result), "goodness"_a = fields_list(result.calibration.goodness),
-                    "logs"_a = logs_of(result), "tick_s"_a = result.config.gyro.tick_s,
-                    "scale_arcsec"_a = result.config.gyro.scale_arcsec,
+                    "bias_chi_higher"_a = result.calibration.chi_higher, "discriminator"_a = discriminator(result),
+                    "goodness"_a = fields_list(result.calibration.goodness), "logs"_a = logs_of(result),
+                    "tick_s"_a = result.config.gyro.tick_s, "scale_arcsec"_a = result.config.gyro.scale_arcsec,
                     "reference_temperature_c"_a = result.config.gyro.reference_temperature_c,
                     "toml"_a = study::calibration_toml(result), "warnings"_a = result.warnings);
 }

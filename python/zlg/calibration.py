@@ -75,8 +75,6 @@ class Calibration(Shown):
     not_determined: dict[str, str]
     #: gyro.bias_chi_higher, with the bias_chi of `constants`; of a parabola none
     bias_chi_higher: list[float]
-    #: gyro.bias_temperature_table: temperature, relative change of the bias; empty where the line of its coefficient is as good
-    bias_temperature_table: list[list[float]]
     #: None: not determined
     discriminator: Optional[Discriminator]
     goodness: list[Goodness]
