@@ -1,7 +1,6 @@
 #pragma once
 // What the theory of the designer says of a configured gyro, as numbers for charts beside the gyro that runs.
 
-#include <cstdint>
 #include <vector>
 
 #include <zlg/config/config.hpp>

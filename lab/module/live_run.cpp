@@ -1,7 +1,6 @@
 // A gyro that is watched while it runs.
 #include "live_run.hpp"
 
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>

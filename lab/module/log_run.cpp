@@ -8,7 +8,6 @@
 
 #include <zlg/config/log_settings.hpp>
 #include <zlg/config/schema.hpp>
-#include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
 #include <zlg/logs/log_kind.hpp>
 

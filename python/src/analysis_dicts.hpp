@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include <zlg/deviations/deviation.hpp>
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/mode_split.hpp>
 #include <zlg/noise/noise_fit.hpp>

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <zlg/config/schema.hpp>
 #include <zlg/text/toml_text.hpp>
 

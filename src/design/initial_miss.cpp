@@ -1,6 +1,5 @@
 #include <zlg/design/initial_miss.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 #include "range_check.hpp"

@@ -1,7 +1,6 @@
 #include "noise_means.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

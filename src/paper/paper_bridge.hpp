@@ -10,7 +10,6 @@
 #include <zlg/design/substitution.hpp>
 #include <zlg/paper/substitution_experiment.hpp>
 
-#include "paper_parts.hpp"
 #include "paper_trial.hpp"
 
 namespace zlg::paper {

@@ -4,7 +4,6 @@
 #include <array>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "paper_bridge.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <zlg/config/log_settings.hpp>
-#include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 #include <zlg/rig/wiring.hpp>

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 

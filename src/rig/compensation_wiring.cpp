@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/core/common/maths.hpp>
 #include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/core/common/maths.hpp>
 #include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 

@@ -1,8 +1,6 @@
 #include <zlg/rig/fingerprint.hpp>
 
-#include <array>
 #include <bit>
-#include <cstddef>
 #include <cstring>
 #include <span>
 

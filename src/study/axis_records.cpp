@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <zlg/logs/error.hpp>
-#include <zlg/logs/imported.hpp>
 
 namespace zlg::study {
 namespace {

@@ -1,7 +1,6 @@
 #include <zlg/study/design_study.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include <zlg/design/error.hpp>
 #include <zlg/recorded/motion.hpp>

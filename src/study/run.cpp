@@ -1,12 +1,9 @@
 #include <zlg/study/run.hpp>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <future>
 #include <map>
-#include <optional>
-#include <string>
 
 #include <fmt/format.h>
 

@@ -1,12 +1,10 @@
 #pragma once
 // Parts of the page of a run: its figures and its sentences.
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <zlg/config/config.hpp>
-#include <zlg/report/page.hpp>
 #include <zlg/study/run.hpp>
 
 namespace zlg::study {

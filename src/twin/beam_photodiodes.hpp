@@ -3,7 +3,6 @@
 // years of the tube.
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include <zlg/core/common/maths.hpp>

@@ -9,7 +9,6 @@
 #include <zlg/logs/imported.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/table_file.hpp>
-#include <zlg/logs/unfinished.hpp>
 
 #include "src/as_json.hpp"
 #include "src/failure.hpp"

@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,7 +25,6 @@
 #include "src/interrupt.hpp"
 #include "src/options.hpp"
 #include "src/output.hpp"
-#include "src/own_folder.hpp"
 #include "src/run_files.hpp"
 #include "src/verbs.hpp"
 

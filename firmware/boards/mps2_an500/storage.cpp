@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include <zlg/firmware/port.hpp>
 #include <zlg/firmware/stored.hpp>

@@ -1,6 +1,5 @@
 #include "fault_light.hpp"
 
-#include <cmath>
 #include <numbers>
 
 #include <zlg/core/common/maths.hpp>

@@ -1,6 +1,5 @@
 #include "fault_perimeter.hpp"
 
-#include <cmath>
 #include <limits>
 #include <numbers>
 

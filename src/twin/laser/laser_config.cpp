@@ -1,6 +1,5 @@
 #include <zlg/twin/laser_config.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -2,7 +2,6 @@
 // A run of the configured gyro with its configured compensation, of which only the errors are kept.
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 

@@ -4,7 +4,6 @@
 // Every number has an address (zlg/chance/address.hpp) made of the seed, the parameter's keys and the gyro: neither
 // order, threads and parts nor other parameters change it. Of latin and grid, all gyros together make the design.
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
