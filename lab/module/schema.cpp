@@ -1,9 +1,7 @@
 // The table of keys as JSON.
 #include "schema.hpp"
 
-#include <array>
 #include <cmath>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -14,11 +12,6 @@
 
 namespace zlg::lab {
 namespace {
-
-// In the order of config::ValueKind.
-constexpr std::array<const char*, 11> kind_names{"real",     "optional_real", "integer",         "text",
-                                                 "reals",    "choice",        "optional_choice", "choices",
-                                                 "interval", "column",        "points"};
 
 // The texts of the table hold no control characters.
 std::string json_text(std::string_view text) {
@@ -44,8 +37,8 @@ std::string key_json(const config::KeyInfo& key) {
     return fmt::format(
         R"({{"section":{},"name":{},"unit":{},"meaning":{},"default":{},"allowed":{},"kind":"{}","choices":{}}})",
         json_text(key.section), json_text(key.name), json_text(key.unit), json_text(key.meaning),
-        json_text(key.default_text), json_text(key.allowed), kind_names.at(static_cast<std::size_t>(key.kind)),
-        list(key.choices, json_text));
+        json_text(key.default_text), json_text(key.allowed),
+        config::value_kind_names.at(static_cast<std::size_t>(key.kind)), list(key.choices, json_text));
 }
 
 std::string fault_json(const twin::FaultFacts& fault) {
@@ -64,13 +57,7 @@ std::string schema_json() {
 
 std::string changed_settings(const config::Config& config) {
     std::string out;
-    const config::Settings defaults = config::to_settings(config::Config{});
-    for (const auto& [key, value] : config::to_settings(config)) {
-        bool is_default = false;
-        for (const auto& [default_key, default_value] : defaults)
-            is_default = is_default || (key == default_key && value == default_value);
-        if (!is_default) out += fmt::format("{}={}\n", key, value);
-    }
+    for (const auto& [key, value] : config::changed_settings(config)) out += fmt::format("{}={}\n", key, value);
     return out;
 }
 

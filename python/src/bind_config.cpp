@@ -1,5 +1,3 @@
-#include <array>
-
 #include <pybind11/stl.h>
 
 #include <zlg/config/log_settings.hpp>
@@ -13,10 +11,6 @@ namespace py = pybind11;
 
 namespace {
 
-// In the order of config::ValueKind.
-constexpr std::array kind_names{"real",    "optional_real", "integer", "text",  "reals", "choice", "optional_choice",
-                                "choices", "interval",      "column",  "points"};
-
 py::list keys() {
     py::list all;
     for (const config::KeyInfo& key : config::describe_keys()) {
@@ -27,7 +21,7 @@ py::list keys() {
         info["meaning"] = key.meaning;
         info["default"] = key.default_text;
         info["allowed"] = key.allowed;
-        info["kind"] = kind_names.at(static_cast<std::size_t>(key.kind));
+        info["kind"] = config::value_kind_names.at(static_cast<std::size_t>(key.kind));
         info["choices"] = key.choices;
         all.append(info);
     }

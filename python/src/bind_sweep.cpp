@@ -30,11 +30,9 @@ py::list columns_of(const sweep::Gyros& gyros, const sweep::Rows& rows) {
     add("gyro", "1", as_array(of_rows([](const sweep::Row& r) { return r.gyro; })));
     add("seed", "1", as_array(of_rows([&](const sweep::Row& r) { return gyros.seed(r.gyro); })));
     const std::vector<sweep::Parameter>& parameters = gyros.description().parameters;
-    std::map<std::string, std::string> units;
-    for (const config::KeyInfo& key : config::describe_keys()) units[key.section + "." + key.name] = key.unit;
     for (std::size_t k = 0; k < parameters.size(); ++k) {
         const py::list values = number_or_text(of_rows([&](const sweep::Row& r) { return gyros.values(r.gyro)[k]; }));
-        for (const std::string& key : parameters[k].keys) add(key, units[key], values);
+        for (const std::string& key : parameters[k].keys) add(key, config::unit_of(key), values);
     }
     const std::vector<sweep::Metric>& metrics = gyros.description().metrics;
     for (std::size_t k = 0; k < metrics.size(); ++k)

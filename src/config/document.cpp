@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <span>
 #include <variant>
 
@@ -46,6 +47,15 @@ Settings to_settings(const Config& config) {
     return settings;
 }
 
+Settings changed_settings(const Config& config) {
+    const Settings defaults = to_settings({});
+    Settings settings = to_settings(config);
+    std::erase_if(settings, [&](const auto& each) {
+        return std::find(defaults.begin(), defaults.end(), each) != defaults.end();
+    });
+    return settings;
+}
+
 std::string to_toml(const Config& config) {
     std::string text;
     std::string_view section;
@@ -75,6 +85,11 @@ std::vector<KeyInfo> describe_keys() {
         std::visit(TellKind{infos.back(), defaults}, key.slot);
     }
     return infos;
+}
+
+std::string unit_of(std::string_view dotted_key) {
+    const auto dot = dotted_key.find('.');
+    return std::string{find_key(dotted_key.substr(0, dot), dotted_key.substr(dot + 1))->unit};
 }
 
 std::string reference_markdown() {

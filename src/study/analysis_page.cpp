@@ -259,22 +259,22 @@ report::Page analysis_page(const config::Analysis& config, const AnalysisResult&
         .title = "Noise of recorded gyros",
         .verdict = analysis_verdict(config, result),
         .lead = "Deviations, fitted noise terms, drift by mode and errors of switches of what was recorded."};
-    std::string names;
+    std::vector<std::string> names;
     for (std::size_t k = 0; k < result.axes.size(); ++k) {
         const View v{.config = config, .axis = result.axes[k], .index = k, .presumed = result.presumed};
         page.sections.push_back(section_of(v));
         if (v.axis.modes && v.axis.modes->segments.size() > 1) page.sections.push_back(mode_section(v));
         page.sections.push_back(number_section(v));
-        names += (names.empty() ? "" : "; ") + v.axis.name;
+        names.push_back(v.axis.name);
     }
     for (std::size_t k = 0; k < result.tables.size(); ++k) {
         page.sections.push_back(table_section(config, result.tables[k], k));
-        names += (names.empty() ? "" : "; ") + result.tables[k].name;
+        names.push_back(result.tables[k].name);
     }
     if (!result.axes.empty()) page.sections.push_back(earth_section(result));
     config::Config asked;
     asked.analysis = config;
-    page.sections.push_back(result.made ? *result.made : how_made("analyze FILE...", asked, names));
+    page.sections.push_back(result.made ? *result.made : how_made("zlg analyze FILE...", names, "", asked));
     return page;
 }
 

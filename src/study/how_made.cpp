@@ -1,7 +1,5 @@
 #include <zlg/study/how_made.hpp>
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include <zlg/config/schema.hpp>
@@ -9,28 +7,20 @@
 namespace zlg::study {
 
 std::string own_settings(const config::Config& config) {
-    const config::Settings defaults = config::to_settings({});
     std::string text;
-    for (const auto& setting : config::to_settings(config))
-        if (std::ranges::find(defaults, setting) == defaults.end())
-            text += fmt::format("{} = {}\n", setting.first, setting.second);
+    for (const auto& [key, value] : config::changed_settings(config)) text += fmt::format("{} = {}\n", key, value);
     return text;
 }
 
-report::Section how_made(std::string_view command, const config::Config& config, std::string_view inputs) {
+report::Section how_made(std::string_view command, const config::Config& config) {
     std::string own = own_settings(config);
-    std::string text = fmt::format("zlg {}, command \"zlg {}\"", ZLG_VERSION, command);
-    if (inputs.empty()) text += fmt::format(", seed {}", config.run.seed);
-    text += inputs.empty() ? ". " : fmt::format(", of {}. ", inputs);
-    if (own.empty()) {
-        text += "All settings have their defaults.";
-    } else {
-        text += fmt::format(
-            "All settings but those below have their defaults. Saved as made.toml, they make this page again: zlg {} "
-            "--config made.toml",
-            command);
-        text += inputs.empty() ? "." : ", with the same files.";
-    }
+    std::string text = fmt::format("zlg {}, command \"zlg {}\", seed {}. ", ZLG_VERSION, command, config.run.seed);
+    text += own.empty()
+                ? "All settings have their defaults."
+                : fmt::format(
+                      "All settings but those below have their defaults. Saved as made.toml, they make this page "
+                      "again: zlg {} --config made.toml.",
+                      command);
     return {.heading = "How this page was made",
             .paragraphs = {std::move(text)},
             .code = std::move(own),

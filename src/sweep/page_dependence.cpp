@@ -1,12 +1,10 @@
 // The part of the page of a sweep that says what its numbers depend on.
 #include <algorithm>
-#include <map>
 
 #include <fmt/format.h>
 
 #include <zlg/report/number_text.hpp>
 #include <zlg/sweep/metrics.hpp>
-#include <zlg/sweep/sensitivity.hpp>
 #include <zlg/sweep/statistics.hpp>
 
 #include "page_parts.hpp"
@@ -90,8 +88,6 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 
 Columns columns_of(const Gyros& gyros, const Rows& rows) {
     const Description& d = gyros.description();
-    std::map<std::string, std::string> units;
-    for (const config::KeyInfo& key : config::describe_keys()) units[key.section + "." + key.name] = key.unit;
     Columns c;
     c.metrics.resize(d.metrics.size());
     std::vector<std::vector<double>> drawn(d.parameters.size());
@@ -104,7 +100,7 @@ Columns columns_of(const Gyros& gyros, const Rows& rows) {
     }
     for (std::size_t k = 0; k < drawn.size(); ++k) {
         if (drawn[k].size() != c.metrics.front().size()) continue;
-        c.names.push_back(with_unit(d.parameters[k].keys.front(), units[d.parameters[k].keys.front()]));
+        c.names.push_back(with_unit(d.parameters[k].keys.front(), config::unit_of(d.parameters[k].keys.front())));
         c.parameters.push_back(std::move(drawn[k]));
     }
     return c;

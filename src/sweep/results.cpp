@@ -4,7 +4,6 @@
 #include <cstring>
 #include <functional>
 #include <limits>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -20,12 +19,6 @@ namespace {
 constexpr std::int64_t format_version = 2;
 
 using logs::FileColumn;
-
-std::map<std::string, std::string> units_of_keys() {
-    std::map<std::string, std::string> units;
-    for (const config::KeyInfo& key : config::describe_keys()) units[key.section + "." + key.name] = key.unit;
-    return units;
-}
 
 template <class Get>
 auto column(const Rows& rows, const Get& get) {
@@ -49,11 +42,10 @@ std::vector<FileColumn> drawn_columns(const Description& description, const Rows
         for (std::size_t k = 0; k < values.size(); ++k)
             is_text[k] ? texts[k].push_back(toml_of(values[k])) : reals[k].push_back(std::get<double>(values[k]));
     }
-    const std::map<std::string, std::string> units = units_of_keys();
     std::vector<FileColumn> columns;
     for (std::size_t k = 0; k < parameters.size(); ++k)
         for (const std::string& key : parameters[k].keys) {
-            const std::string& unit = units.at(key);
+            const std::string unit = config::unit_of(key);
             is_text[k] ? columns.push_back({key, unit, texts[k]})
                        : columns.push_back({key, unit.empty() ? "1" : unit, reals[k]});
         }

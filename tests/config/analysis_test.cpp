@@ -1,4 +1,3 @@
-#include <zlg/config/analysis.hpp>
 #include <zlg/config/schema.hpp>
 
 #include <fmt/format.h>

@@ -23,12 +23,6 @@ TEST(HowMade, its_lines_read_back_to_the_same_configuration) {
     EXPECT_EQ(config::to_toml(again), config::to_toml(asked));
 }
 
-TEST(HowMade, names_what_was_read) {
-    const auto text = study::how_made("analyze FILE", {}, "gyro.csv").paragraphs.at(0);
-    EXPECT_NE(text.find("of gyro.csv"), std::string::npos);
-    EXPECT_EQ(text.find("seed"), std::string::npos) << "nothing was simulated";
-}
-
 TEST(HowMade, of_files_the_command_and_what_each_file_was) {
     config::Config asked;
     config::apply_set(asked, "analysis.confidence=0.9");

@@ -1,7 +1,5 @@
 #include "lab_page.hpp"
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <string_view>
 
@@ -59,13 +57,9 @@ std::string live_lab_page() {
 }
 
 std::string lab_fragment(const config::Config& config, double until_s) {
-    const config::Settings defaults = config::to_settings(config::Config{});
     std::string out;
-    for (const auto& setting : config::to_settings(config)) {
-        const auto& [key, value] = setting;
-        if (key == "run.duration_s" || std::ranges::find(defaults, setting) != defaults.end()) continue;
-        out += fmt::format("{}={}&", key, percent_encoded(value));
-    }
+    for (const auto& [key, value] : config::changed_settings(config))
+        if (key != "run.duration_s") out += fmt::format("{}={}&", key, percent_encoded(value));
     return out + fmt::format("until={}", until_s);
 }
 

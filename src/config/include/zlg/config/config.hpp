@@ -11,12 +11,11 @@
 #include <string>
 #include <vector>
 
-#include <zlg/config/analysis.hpp>
-#include <zlg/config/faults.hpp>
 #include <zlg/core/compensation/magnetic_drift.hpp>
 #include <zlg/core/control/switch_schedule.hpp>
 #include <zlg/core/methods.hpp>
 #include <zlg/twin/environment_config.hpp>
+#include <zlg/twin/fault_kinds.hpp>
 #include <zlg/twin/gyro_config.hpp>
 #include <zlg/twin/laser_config.hpp>
 
@@ -39,6 +38,11 @@ using Photodiodes = twin::PhotodiodesConfig;
 
 enum class MotionKind { rest, constant, sine, sum, file };
 enum class ColumnHolds { increment, rate };
+enum class Deviation { adev, oadev, mdev, tdev, hdev, ohdev, totdev, mtotdev, htotdev };
+enum class Taus { octave, decade, all };
+enum class ShownRate { deg_h, arcsec_s, deg_s, rad_s };
+enum class TextSeparator { automatic, space, tab, semicolon, comma, bar };
+enum class DecimalMark { automatic, point, comma };
 
 struct Run {
     std::optional<double> duration_s;  // unset: 3600, or the length of the motion file
@@ -110,9 +114,32 @@ struct Motion {
     std::string time_column;  // number or name; empty: looked for; "0": there is none
 };
 
+// What breaks in a simulated gyro.
+struct Faults {
+    // Fault number i is kind[i] from at_s[i] on.
+    std::vector<twin::FaultKind> kind;
+    std::vector<double> at_s;
+    std::vector<double> duration_s;
+    std::vector<double> size;  // in the unit of its kind
+    double random_per_hour = 0.0;
+    std::uint64_t random_seed = 1;
+    std::vector<twin::FaultKind> random_kinds;  // none: all
+};
+
 struct Design {
     double switch_error_arcsec = 10.0;
     std::vector<double> run_lengths_s = {600.0, 900.0, 3600.0, 36000.0};
+};
+
+// What `zlg analyze` is to compute.
+struct Analysis {
+    std::vector<Deviation> deviations = {Deviation::oadev};
+    Taus taus = Taus::octave;
+    std::vector<double> taus_s;  // instead of them
+    double confidence = 0.95;
+    ShownRate unit = ShownRate::deg_h;
+    double table_settling_s = 0.0;  // of each stage
+    double table_earth_arcsec_s = 0.0;
 };
 
 struct Config {

@@ -6,6 +6,7 @@
 // recorded, so an explicit value that differs from the log's own is refused by `check_against_log`, called last.
 // Every apply function either takes in its whole text or leaves the configuration as it was.
 
+#include <array>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -39,6 +40,9 @@ enum class ValueKind {
     column,
     points
 };
+inline constexpr std::array value_kind_names{"real",     "optional_real", "integer",         "text",
+                                             "reals",    "choice",        "optional_choice", "choices",
+                                             "interval", "column",        "points"};
 
 // What is known of one key.
 struct KeyInfo {
@@ -111,10 +115,16 @@ void check_environment(const Config& config);
 // Every key that is set; reals in the shortest form that reads back to the same number.
 [[nodiscard]] Settings to_settings(const Config& config);
 
-// The same as a TOML file.
+// Those that are not the defaults.
+[[nodiscard]] Settings changed_settings(const Config& config);
+
+// All that are set, as a TOML file.
 [[nodiscard]] std::string to_toml(const Config& config);
 
 [[nodiscard]] std::vector<KeyInfo> describe_keys();
+
+// Of a key that there is; empty where it has none.
+[[nodiscard]] std::string unit_of(std::string_view dotted_key);
 
 // The table as a chapter of the documentation, one Markdown table per section.
 [[nodiscard]] std::string reference_markdown();

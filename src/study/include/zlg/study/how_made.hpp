@@ -13,10 +13,8 @@ namespace zlg::study {
 // Lines of TOML: the keys whose values are not the defaults.
 [[nodiscard]] std::string own_settings(const config::Config& config);
 
-// Version, seed and those settings. command: what follows `zlg`, such as "run"; inputs: what it read beside the
-// configuration, or nothing.
-[[nodiscard]] report::Section how_made(std::string_view command, const config::Config& config,
-                                       std::string_view inputs = "");
+// Version, seed and those settings. command: what follows `zlg`, such as "run".
+[[nodiscard]] report::Section how_made(std::string_view command, const config::Config& config);
 
 // Of a page that was made of files: the command as it was typed, a line of each file, the mapping (lines of TOML, or
 // nothing), and the settings that are not the defaults.
