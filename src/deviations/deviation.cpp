@@ -1,12 +1,14 @@
 #include <zlg/deviations/deviation.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
+#include <zlg/deviations/deviation_confidence.hpp>
 #include <zlg/deviations/noise_identification.hpp>
 #include <zlg/numeric/parallel.hpp>
 
-#include "deviation_points.hpp"
 #include "sums/difference_sums.hpp"
 
 namespace zlg::deviations {
@@ -50,6 +52,85 @@ std::vector<std::int64_t> checked_factors(std::span<const std::int64_t> factors,
         throw SeriesError(fmt::format("averaging time: {} intervals, allowed is 1 or more", sorted.front()));
     std::erase_if(sorted, [&](std::int64_t m) { return m > n_intervals; });
     return sorted;
+}
+
+// --- from sums of squares to points of a curve
+
+struct MeasuredSum {
+    std::int64_t m = 1;
+    TermSum sum;
+    std::int64_t possible_terms = 0;  // without gaps
+};
+
+// Terms of a record of n_intervals without gaps.
+std::int64_t possible_terms(DeviationKind kind, std::int64_t m, std::int64_t n_intervals) {
+    const int order = difference_order(kind);
+    std::int64_t terms = n_intervals - order * m + 1;
+    if (is_side_by_side(kind)) terms = n_intervals / m - order + 1;
+    if (is_modified(kind)) terms = n_intervals - 3 * m + 2;
+    if (kind == DeviationKind::totdev) terms = n_intervals - 1;
+    return std::max<std::int64_t>(0, terms);
+}
+
+// A record without gaps of as many terms: what gaps leave of the terms is as much as that of a shorter record.
+std::int64_t shortened(DeviationKind kind, std::int64_t m, std::int64_t n_intervals, double share) {
+    const std::int64_t possible = possible_terms(kind, m, n_intervals);
+    const auto known = std::clamp<std::int64_t>(std::llround(share * static_cast<double>(possible)), 1, possible);
+    const std::int64_t shorter = n_intervals - (possible - known) * (is_side_by_side(kind) ? m : 1);
+    return kind == DeviationKind::totdev ? std::max(2 * m, shorter) : shorter;
+}
+
+// What the variance as computed is to be divided by.
+double total_bias(TotalBias what, DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals) {
+    switch (what) {
+        case TotalBias::removed:
+            return total_variance_bias(kind, noise, m, n_intervals);
+        case TotalBias::published:
+            return published_total_variance_bias(kind, noise, m, n_intervals);
+        case TotalBias::as_computed:
+            break;
+    }
+    return 1.0;
+}
+
+// Squares of differences to variances: white rate noise gives 2 and 6 times its own.
+double per_square(DeviationKind kind) { return difference_order(kind) == 3 ? 1.0 / 6.0 : 0.5; }
+
+int noise_at(std::int64_t m, DeviationKind kind, const std::vector<NoiseStep>& steps, const DeviationOptions& options) {
+    if (options.noise) return *options.noise;
+    const int steepest = difference_order(kind) == 3 ? -4 : -2;
+    return std::clamp(static_cast<int>(std::lround(noise_exponent(steps, m).value_or(0.0))), steepest, 2);
+}
+
+// steps  what is known of the noise; none where it is given, or too short a record: then white rate noise is taken.
+DeviationCurve curve_of(DeviationKind kind, const SeriesKind& what, std::int64_t n_intervals,
+                        const std::vector<MeasuredSum>& sums, const std::vector<NoiseStep>& steps,
+                        const DeviationOptions& options) {
+    DeviationCurve curve{
+        .kind = kind, .confidence = options.confidence, .total_bias = options.total_bias, .points = {}};
+    for (const auto& [m, sum, possible] : sums) {
+        if (sum.terms < 1 || possible < 1) continue;
+        const int noise = noise_at(m, kind, steps, options);
+        DeviationPoint point{
+            .m = m, .tau_s = static_cast<double>(m) / what.rate_hz, .terms = sum.terms, .noise = noise};
+        const double variance = per_square(kind) * rate_scale(what) * sum.sum / static_cast<double>(sum.terms);
+        point.as_computed = std::sqrt(variance);
+        if (kind == DeviationKind::tdev) point.as_computed *= point.tau_s / std::numbers::sqrt3;
+        point.deviation = point.as_computed / std::sqrt(total_bias(options.total_bias, kind, noise, m, n_intervals));
+        const double share = static_cast<double>(sum.terms) / static_cast<double>(possible);
+        point.law = variance_law(kind, noise, m, shortened(kind, m, n_intervals, share));
+        const auto interval = confidence_interval(point.deviation, point.law, options.confidence);
+        point.low = interval.low;
+        point.high = interval.high;
+        curve.points.push_back(point);
+    }
+    if (curve.points.empty())
+        throw SeriesError(
+            fmt::format("{}: a record of {} intervals has no difference that is known at the given averaging times",
+                        name_of(kind), n_intervals));
+    if (std::ranges::all_of(curve.points, [](const DeviationPoint& point) { return point.deviation == 0.0; }))
+        throw SeriesError(fmt::format("{}: the record has no noise, all differences are 0", name_of(kind)));
+    return curve;
 }
 
 }  // namespace
