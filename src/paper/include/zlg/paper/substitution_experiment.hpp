@@ -74,7 +74,7 @@ struct SubstitutionResult {
 // Run experiments side by side; results in their order, the same for any number of threads.
 //
 // threads  >= 1.
-// errors   design::DesignError for an experiment or a number of threads that is out of range; config::ConfigError for a
+// errors   design::DesignError for a number of switches or of threads that is out of range; config::ConfigError for a
 //          base that makes no gyro, or one that does not switch when and for as long as it should. Of several failures
 //          the one that is first in order.
 // cost     about 0.3 s for 2000 switches.
