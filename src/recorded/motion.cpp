@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,9 +9,7 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/error.hpp>
-#include <zlg/logs/text_columns.hpp>
 #include <zlg/logs/time_check.hpp>
-#include <zlg/recorded/text_layout.hpp>
 #include <zlg/rig/wiring.hpp>
 
 namespace zlg::recorded {
@@ -24,13 +21,9 @@ using config::ConfigError;
 constexpr std::size_t max_rows = std::size_t{1} << 25;
 constexpr std::int64_t max_bytes = std::int64_t{1} << 30;
 
-logs::TextLayout layout_of(const config::Motion& m) {
-    logs::TextLayout layout = text_layout(m);
-    layout.columns = {m.column.empty() ? "1" : m.column};
-    layout.max_rows = max_rows;
-    layout.max_bytes = max_bytes;
-    return layout;
-}
+// The words of the configuration are those of the reader, in their order.
+static_assert(static_cast<int>(config::TextSeparator::bar) == static_cast<int>(logs::TextSeparator::bar) &&
+              static_cast<int>(config::DecimalMark::comma) == static_cast<int>(logs::TextMark::comma));
 
 void refuse_times(const config::Motion& m, const logs::TextLayout& layout, const logs::TextTable& table) {
     const std::string mistaken = logs::mistaken_times(table, m.path, layout, !m.column.empty(), "motion");
@@ -45,7 +38,7 @@ void refuse_times(const config::Motion& m, const logs::TextLayout& layout, const
 }
 
 twin::Motion motion_of_file(const config::Motion& m) {
-    const logs::TextLayout layout = layout_of(m);
+    const logs::TextLayout layout = text_layout(m);
     logs::TextTable table = logs::read_text_table(m.path, layout);
     refuse_times(m, layout, table);
     std::vector<double>& values = table.columns.front().values;
@@ -60,6 +53,18 @@ twin::Motion motion_of_file(const config::Motion& m) {
 }
 
 }  // namespace
+
+logs::TextLayout text_layout(const config::Motion& m) {
+    return {.columns = {m.column.empty() ? "1" : m.column},
+            .comment = m.comment,
+            .skip_lines = m.skip_lines,
+            .separator = static_cast<logs::TextSeparator>(m.separator),
+            .mark = static_cast<logs::TextMark>(m.decimal),
+            .time_column = m.time_column,
+            .section = "motion",
+            .max_rows = max_rows,
+            .max_bytes = max_bytes};
+}
 
 twin::Motion motion(const config::Config& config) {
     return config.motion.kind == config::MotionKind::file ? motion_of_file(config.motion) : rig::motion(config);

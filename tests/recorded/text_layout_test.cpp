@@ -1,4 +1,4 @@
-#include <zlg/recorded/text_layout.hpp>
+#include <zlg/recorded/motion.hpp>
 
 #include <zlg/config/schema.hpp>
 
