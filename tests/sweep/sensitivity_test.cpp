@@ -1,6 +1,6 @@
 // Claims about the dependence of numbers on parameters.
 
-#include <zlg/sweep/sensitivity.hpp>
+#include <zlg/sweep/statistics.hpp>
 
 #include "test.hpp"
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <zlg/sweep/results.hpp>
@@ -54,5 +53,13 @@ struct Summary {
 
 // The gyros to look at first: those that failed, then those farthest beyond the middle of the first metric. At most n.
 [[nodiscard]] std::vector<const Row*> worst(const Description& description, const Rows& rows, std::size_t n);
+
+// Spearman's rank correlation of two columns; equal values share the mean of their ranks. Nothing with fewer than three
+// rows, or where a column does not vary.
+[[nodiscard]] std::optional<double> rank_correlation(std::span<const double> x, std::span<const double> y);
+
+// |rank correlation| beyond which two independent columns of n rows lie with a probability of 5 %, by the normal
+// law: 1.96/sqrt(n - 1).
+[[nodiscard]] double chance_correlation(std::size_t n);
 
 }  // namespace zlg::sweep
