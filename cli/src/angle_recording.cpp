@@ -25,8 +25,12 @@ void AngleRecording::write(const core::AngleRow& row, double tick_s, const logs:
     angles_->write(row);
 }
 
-void AngleRecording::flush() {
-    if (angles_) angles_->flush();
+void AngleRecording::flush_now_and_then() {
+    constexpr std::chrono::milliseconds flush_every{500};
+    const auto now = std::chrono::steady_clock::now();
+    if (!angles_ || now - flushed_ < flush_every) return;
+    angles_->flush();
+    flushed_ = now;
 }
 
 void AngleRecording::close() {

@@ -2,6 +2,7 @@
 // The angle log of a source that cannot be asked again: it grows as rows come, and what was flushed stays whatever
 // happens.
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -23,7 +24,7 @@ public:
     //
     // errors  those of logs::AngleWriter.
     void write(const core::AngleRow& row, double tick_s, const logs::Settings& settings);
-    void flush();
+    void flush_now_and_then();
 
     // errors  logs::IoError, also where no row has come.
     void close();
@@ -35,6 +36,7 @@ private:
     std::string out_;
     bool force_;
     std::optional<logs::AngleWriter> angles_;
+    std::chrono::steady_clock::time_point flushed_{};
 };
 
 }  // namespace zlg::cli

@@ -79,9 +79,14 @@ void add_light_option(CLI::App& verb, Options& options) {
     verb.add_flag("--light", options.light, "record every light sample too (HDF5 only)");
 }
 
-config::Config load_config(const Options& options) {
+config::Config said_config(const Options& options) {
     config::Config config;
     apply_options(config, options);
+    return config;
+}
+
+config::Config load_config(const Options& options) {
+    config::Config config = said_config(options);
     config::check(config);
     if (config.motion.kind == config::MotionKind::file) text::note_input(config.motion.path);
     return config;

@@ -45,6 +45,11 @@ void add_light_option(CLI::App& verb, Options& options);
 // --set over --config over the defaults.
 //
 // errors  config::ConfigError.
+[[nodiscard]] config::Config said_config(const Options& options);
+
+// The same as a gyro that can be.
+//
+// errors  config::ConfigError.
 [[nodiscard]] config::Config load_config(const Options& options);
 
 // The facts of a log that are used: how long its ticks are, what a count is worth.

@@ -59,13 +59,6 @@ std::string command_of(const AcceptOptions& options) {
     return command + " --out REPORT.html";
 }
 
-config::Config said(const AcceptOptions& options) {
-    config::Config config;
-    if (!options.config_path.empty()) config::apply_file(config, options.config_path);
-    for (const std::string& set : options.sets) config::apply_set(config, set);
-    return config;
-}
-
 void accept(const AcceptOptions& options) {
     check_usage(options);
     if (options.plan) return write_plan(options);
@@ -73,7 +66,7 @@ void accept(const AcceptOptions& options) {
     Progress progress;
     const acceptance::Acceptance test =
         acceptance::accept({.plan = options.files.front(),
-                            .said = said(options),
+                            .said = said_config(options),
                             .threads = options.threads,
                             .on_progress = [&](double fraction) { progress.show(fraction); }});
     const auto earlier =

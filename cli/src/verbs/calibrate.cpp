@@ -120,13 +120,6 @@ struct CalibrateOptions : Options {
     bool from_laser = false;
 };
 
-config::Config said(const CalibrateOptions& options) {
-    config::Config config;
-    if (!options.config_path.empty()) config::apply_file(config, options.config_path);
-    for (const std::string& set : options.sets) config::apply_set(config, set);
-    return config;
-}
-
 void check_usage(const CalibrateOptions& options) {
     if (options.from_laser && !options.raws.empty())
         throw UsageError{fmt::format("--from-laser: takes no log; {} is one. A configuration is named by --config",
@@ -153,7 +146,7 @@ void calibrate(const CalibrateOptions& options) {
         .logs = options.raws,
         .rate_arcsec_s = options.rate_arcsec_s,
         .rate_name = "--rate-arcsec-s",
-        .said = said(options),
+        .said = said_config(options),
         .open = [&](const std::string& path) { return open_raw(options, path); },
         .on_progress = [&](double fraction) { progress.show(fraction); },
     });

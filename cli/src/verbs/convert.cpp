@@ -50,19 +50,27 @@ void warn_of_absent(const ConvertOptions& options, const config::Settings& setti
 }
 
 // The rest of a raw log, row by row, into any copy of it.
-template <class Copy>
-std::int64_t copy_raw(const ConvertOptions& options, logs::RawReader& raw, Copy& copy) {
+// Every row; how many there were.
+template <class Row, class Reader, class Write>
+std::int64_t copy_rows(Reader& log, const Write& write) {
     const Interruptible interruptible;
     Progress progress;
-    core::HalfRecord record;
+    Row row;
     std::int64_t rows = 0;
-    while (raw.next(record)) {
-        copy.write(record, raw.light());
+    while (log.next(row)) {
+        write(row);
         if (++rows % 100'000 == 0) {
             interruptible.check();
-            progress.show(raw.fraction_read());
+            progress.show(log.fraction_read());
         }
     }
+    return rows;
+}
+
+template <class Copy>
+std::int64_t copy_raw(const ConvertOptions& options, logs::RawReader& raw, Copy& copy) {
+    const std::int64_t rows =
+        copy_rows<core::HalfRecord>(raw, [&](const core::HalfRecord& record) { copy.write(record, raw.light()); });
     if (!raw.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.file));
     copy.close();
@@ -92,22 +100,6 @@ double logged_tick_s(const logs::AngleHeader& header, const ConvertOptions& opti
 }
 
 // The same of an angle log.
-template <class Write>
-std::int64_t copy_angles(logs::AngleReader& angles, Write write) {
-    const Interruptible interruptible;
-    Progress progress;
-    logs::TimedAngle angle;
-    std::int64_t rows = 0;
-    while (angles.next(angle)) {
-        write(angle);
-        if (++rows % 100'000 == 0) {
-            interruptible.check();
-            progress.show(angles.fraction_read());
-        }
-    }
-    return rows;
-}
-
 std::int64_t convert_angles(const ConvertOptions& options, std::optional<logs::LogFormat> format) {
     logs::AngleReader angles{options.file};
     const logs::AngleHeader& header = angles.header();
@@ -115,7 +107,8 @@ std::int64_t convert_angles(const ConvertOptions& options, std::optional<logs::L
     warn_of_absent(options, header.settings, {"tick_s"});
     if (!format) {
         logs::MatlabCopy<logs::AngleTable> copy{options.out, header, options.force};
-        const std::int64_t rows = copy_angles(angles, [&copy](const logs::TimedAngle& angle) { copy.write(angle); });
+        const std::int64_t rows =
+            copy_rows<logs::TimedAngle>(angles, [&copy](const logs::TimedAngle& angle) { copy.write(angle); });
         copy.close();
         return rows;
     }
@@ -130,7 +123,8 @@ std::int64_t convert_angles(const ConvertOptions& options, std::optional<logs::L
         options.force,
         {.has_truth = with_truth, .has_fingerprint = with_fingerprint, .format_version = header.format_version}};
     if (with_fingerprint) copy.set_fingerprint(header.fingerprint);
-    const std::int64_t rows = copy_angles(angles, [&copy](const logs::TimedAngle& angle) { copy.write_timed(angle); });
+    const std::int64_t rows =
+        copy_rows<logs::TimedAngle>(angles, [&copy](const logs::TimedAngle& angle) { copy.write_timed(angle); });
     copy.close();
     return rows;
 }

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -32,10 +31,8 @@ struct FollowOptions {
 void receive(logs::Follower& follower, AngleRecording& recording, const std::optional<double>& duration_s,
              const Interruptible& interruptible) {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::milliseconds flush_every{500};
     constexpr std::int64_t stride_rows = 1024;  // between two looks at the clock
     const auto started = Clock::now();
-    auto flushed = started;
     const logs::Settings settings = logs::line_settings();
     core::AngleRow row;
     while (true) {
@@ -46,9 +43,7 @@ void receive(logs::Follower& follower, AngleRecording& recording, const std::opt
         if (next == logs::Follower::Next::row && follower.n_rows() % stride_rows != 0) continue;
         const auto now = Clock::now();
         if (duration_s && std::chrono::duration<double>{now - started}.count() >= *duration_s) follower.stop();
-        if (now - flushed < flush_every) continue;
-        recording.flush();
-        flushed = now;
+        recording.flush_now_and_then();
     }
 }
 

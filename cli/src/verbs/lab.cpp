@@ -99,7 +99,8 @@ public:
     // Until the source ends or a signal comes; the log is then complete.
     void receive(const Interruptible& interruptible) {
         try {
-            while (take(interruptible)) flush_now_and_then();
+            while (take(interruptible))
+                if (recording_) recording_->flush_now_and_then();
             if (recording_) recording_->close();
         } catch (...) {
             rethrow_with({recording_ ? recording_->part_path() : std::string{}});
@@ -122,21 +123,11 @@ private:
         return true;
     }
 
-    void flush_now_and_then() {
-        using Clock = std::chrono::steady_clock;
-        constexpr std::chrono::milliseconds flush_every{500};
-        const auto now = Clock::now();
-        if (!recording_ || now - flushed_ < flush_every) return;
-        recording_->flush();
-        flushed_ = now;
-    }
-
     RecordSource& source_;
     live::RecordBook& book_;
     logs::Settings settings_;
     std::optional<AngleRecording> recording_;
     std::int64_t n_rows_ = 0;
-    std::chrono::steady_clock::time_point flushed_{};
 };
 
 // Since `complain` waits for the end of the program, a page would be open before it is said where.
