@@ -14,7 +14,7 @@
 #include <zlg/rig/refusal.hpp>
 #include <zlg/rig/wiring.hpp>
 #include <zlg/twin/averaged_laser.hpp>
-#include <zlg/twin/discriminator_curve.hpp>
+#include <zlg/twin/discriminator_range.hpp>
 #include <zlg/twin/four_wave.hpp>
 #include <zlg/twin/laser_zones.hpp>
 
@@ -186,10 +186,10 @@ LaserCalibration calibrate(const config::Config& config) {
 
     const Settled settled{laser, field_g, averaged};
     made.config.gyro.bias_hz *= settled.max_bias_hz() / averaged.bias_hz;
-    const twin::DiscriminatorCurve inverse = twin::discriminator_curve(laser, field_g);
+    const twin::DiscriminatorRange range = twin::discriminator_range(laser, field_g);
     const double at = averaged.settled_lambda;
-    const Side above{1.0, third_wave_lambda(laser, field_g, 1.0) - at, inverse.max_detuning_lambda() - at};
-    const Side below{-1.0, third_wave_lambda(laser, field_g, -1.0) + at, at - inverse.min_detuning_lambda()};
+    const Side above{1.0, third_wave_lambda(laser, field_g, 1.0) - at, range.max_detuning_lambda - at};
+    const Side below{-1.0, third_wave_lambda(laser, field_g, -1.0) + at, at - range.min_detuning_lambda};
     config::Perimeter& perimeter = made.config.perimeter;
     perimeter.discriminator_detuning_lambda.clear();
     perimeter.discriminator_signal.clear();

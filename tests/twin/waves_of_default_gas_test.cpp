@@ -1,7 +1,7 @@
 // The numbers of docs/physics.md that are of the default gas at 15 G, to their last digit.
 
 #include <zlg/twin/averaged_laser.hpp>
-#include <zlg/twin/discriminator_curve.hpp>
+#include <zlg/twin/discriminator_range.hpp>
 #include <zlg/twin/laser_table.hpp>
 #include <zlg/twin/laser_zones.hpp>
 
@@ -39,7 +39,7 @@ TEST(DefaultGas, HasADiscriminatorThatGrowsFasterThanTheDetuning) {
     for (int k = 1; k <= 4; ++k)
         EXPECT_NEAR(laser.at(0.05 * k, field_g).discriminator() / (slope_per_lambda(laser) * 0.05 * k), growth[k - 1],
                     0.01);
-    EXPECT_NEAR(discriminator_curve(laser, field_g).max_detuning_lambda(), 0.250, 1e-3);
+    EXPECT_NEAR(discriminator_range(laser, field_g).max_detuning_lambda, 0.250, 1e-3);
 }
 
 TEST(DefaultGas, HasABiasThatGrowsWithItsGainAndASlopeThatFalls) {
