@@ -4,8 +4,8 @@
 
 #include <zlg/core/control/edge_dither.hpp>
 #include <zlg/twin/beat_phase.hpp>
-#include <zlg/twin/slip_phase.hpp>
 
+#include "slip_phase.hpp"
 #include "test.hpp"
 
 namespace zlg::twin {

@@ -1,4 +1,4 @@
-#include <zlg/twin/slip_phase.hpp>
+#include "slip_phase.hpp"
 
 #include "test.hpp"
 #include "turns_from.hpp"
