@@ -175,9 +175,12 @@ void LogRun::add_ticks() {
     while (!final_.empty() && !waits()) {
         const core::AngleRow row = final_.take_front();
         const SeenTick& at = seen(row.tick);
-        ticks_.insert(ticks_.end(), {static_cast<double>(row.tick), at.read_arcsec, row.dtheta_arcsec,
-                                     row.dtheta_final_arcsec, row.sigma_arcsec, static_cast<double>(row.flags),
-                                     static_cast<double>(row.mode), at.closed, at.detuning_lambda, at.piezo_v});
+        delivered_arcsec_.add(row.dtheta_arcsec);
+        final_arcsec_.add(row.dtheta_final_arcsec);
+        ticks_.insert(ticks_.end(),
+                      {static_cast<double>(row.tick), at.read_arcsec, row.dtheta_arcsec, row.dtheta_final_arcsec,
+                       row.sigma_arcsec, static_cast<double>(row.flags), static_cast<double>(row.mode), at.closed,
+                       at.detuning_lambda, at.piezo_v, delivered_arcsec_.value(), final_arcsec_.value()});
         for (Compared& each : compared_) {
             each.less_configured.add(each.final_arcsec.take_front() - row.dtheta_final_arcsec);
             ticks_.push_back(each.less_configured.value());

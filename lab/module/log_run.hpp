@@ -40,9 +40,9 @@ public:
 
     //   ticks     a row a tick, in their order: tick; increment as read, delivered, final, arcsec; sigma of the final
     //   one; flags; mode; 1
-    //             where the loop is closed; detuning of the second half, lambda; piezo voltage, V; final angle since
-    //             the start without corrections and by the paper, each less the configured one, arcsec. NaN: the log
-    //             does not say.
+    //             where the loop is closed; detuning of the second half, lambda; piezo voltage, V; angle since the
+    //             start as delivered, final, and without corrections and by the paper, each less the final one,
+    //             arcsec. NaN: the log does not say.
     //   switches  a row for each: first tick; ticks of the gap; mode after; dP of eq (16), arcsec
     [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
     [[nodiscard]] const std::vector<double>& switches() const { return switches_; }
@@ -89,6 +89,8 @@ private:
     bool lacks_detuning_ = false;
     std::optional<rig::Replay> configured_;
     std::vector<Compared> compared_;  // as read, by the paper
+    core::ExactSum delivered_arcsec_;
+    core::ExactSum final_arcsec_;
     Queue<core::AngleRow> final_;
     std::optional<core::HalfRecord> first_;  // of the tick that has begun
     std::array<SeenTick, core::history_ticks> seen_{};

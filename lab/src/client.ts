@@ -1,18 +1,8 @@
 // The gyro as the page sees it: the worker behind one interface.
-import type { Design, Frame, FromWorker, Gyro, LogPicture, Schema, ToWorker } from "./protocol";
+import type { FromWorker, Gyro, ToWorker } from "./protocol";
 
-export interface Listener {
-    loaded(schema: Schema): void;
-    configured(changed: string[], is_newest: boolean): void; // is_newest: nothing else was asked for meanwhile
-    refused(message: string, whole: boolean): void;
-    frame(frame: Frame): void;
-    designed(design: Design): void;
-    motion_read(name: string, settings: string[], note: string): void;
-    motion_refused(message: string): void;
-    log_progress(fraction: number, ticks: number): void;
-    log_read(log: LogPicture): void;
-    log_angles(name: string, text: Blob): void;
-}
+// Hears each kind of message.
+export type Listener = { [Kind in FromWorker["kind"]]: (message: Extract<FromWorker, { kind: Kind }>) => void };
 
 export class GyroClient {
     private readonly worker: Worker;
@@ -27,7 +17,7 @@ export class GyroClient {
         this.worker = new Worker(address);
         URL.revokeObjectURL(address);
         this.worker.onmessage = (event: MessageEvent<FromWorker>) => this.take(event.data, listener);
-        this.worker.onerror = (event) => listener.refused?.(`the page's worker has failed: ${event.message}`, true);
+        this.worker.onerror = (event) => listener.refused?.({ kind: "refused", number: 0, message: `the page's worker has failed: ${event.message}`, whole: true });
         this.send({ kind: "load", code });
     }
 
@@ -50,31 +40,11 @@ export class GyroClient {
     }
 
     private take(message: FromWorker, listener: Partial<Listener>): void {
-        switch (message.kind) {
-            case "loaded":
-                return listener.loaded?.(message.schema);
-            case "configured":
-                this.number = this.answered = message.number;
-                return listener.configured?.(message.changed, !this.waits());
-            case "refused":
-                this.answered = message.number;
-                // Of one that another follows already nothing is said.
-                return this.waits() ? undefined : listener.refused?.(message.message, message.whole);
-            case "designed":
-                return listener.designed?.(message.design);
-            case "motion_read":
-                return listener.motion_read?.(message.name, message.settings, message.note);
-            case "motion_refused":
-                return listener.motion_refused?.(message.message);
-            case "log_progress":
-                return listener.log_progress?.(message.fraction, message.ticks);
-            case "log_read":
-                return listener.log_read?.(message.log);
-            case "log_angles":
-                return listener.log_angles?.(message.name, message.text);
-            case "frame":
-                if (message.number === this.number) listener.frame?.(message);
-                else this.send({ kind: "seen" });
-        }
+        if (message.kind === "configured") this.number = this.answered = message.number;
+        if (message.kind === "refused") this.answered = message.number;
+        // Of one that another follows already nothing is said.
+        if (message.kind === "refused" && this.waits()) return;
+        if (message.kind === "frame" && message.number !== this.number) this.send({ kind: "seen" });
+        else (listener[message.kind] as ((message: FromWorker) => void) | undefined)?.(message);
     }
 }

@@ -38,9 +38,9 @@ function intervals(module: LoopModule, settings: Settings, measured_arcsec: numb
     const interval_s = fixed ? settings.number("switching.interval_s") : NaN;
     // At least as long as an interval: a shorter run has no switch.
     const run_s = Math.max(shortest_run_s, fixed ? interval_s : 0);
-    const best = (law: IntervalLaw) => (length_s: number) => module.best_interval_s(law, length_s, error_arcsec);
+    const best = (law: IntervalLaw) => (length_s: number) => module.calls.zlg_interval(law, length_s, error_arcsec);
     const best_s = best(IntervalLaw.expected)(run_s);
-    const drift = (budget: Budget, length_s: number) => (at_s: number) => module.drift(budget, at_s, length_s, error_arcsec);
+    const drift = (budget: Budget, length_s: number) => (at_s: number) => module.calls.zlg_drift(budget, at_s, length_s, error_arcsec);
     const expected = [run_s / 6, run_s, 10 * run_s].map((length_s) => drift(Budget.expected, length_s));
     const places = [interval_s, best_s].filter(Number.isFinite);
     const least_s = Math.min(...places) / 20;

@@ -16,6 +16,15 @@ export function made<Name extends keyof HTMLElementTagNameMap>(name: Name, text 
     return element;
 }
 
+// A new part of a drawing, in its parent.
+export function part(parent: Element | null, name: string, attributes: Record<string, string | number>, text = ""): SVGElement {
+    const made = document.createElementNS("http://www.w3.org/2000/svg", name) as SVGElement;
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
+    if (text) made.textContent = text;
+    parent?.append(made);
+    return made;
+}
+
 // The lines of a field that are not empty.
 export function lines_of(id: string): string[] {
     return element<HTMLTextAreaElement>(id).value.split("\n").map((line) => line.trim()).filter((line) => line !== "");

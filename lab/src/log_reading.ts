@@ -10,36 +10,18 @@ const most_stretches = 1024;
 const newest_ticks = 16384;
 
 // Columns of log_run.hpp.
-const tick_columns = 12;
-const tick_column = { tick: 0, read: 1, delivered: 2, final: 3, sigma: 4, flags: 5, mode: 6, closed: 7, detuning: 8, piezo: 9, read_less: 10, paper_less: 11 };
+const tick_columns = 14;
+const tick_column = { tick: 0, read: 1, delivered: 2, final: 3, sigma: 4, flags: 5, mode: 6, closed: 7, detuning: 8, piezo: 9, angle_delivered: 10, angle: 11, read_less: 12, paper_less: 13 };
 const switch_columns = 4;
 const n_flags = 32;
 const in_gap = 0x300; // flag_loop_unlocked, flag_invalid
 const longest_relock_ticks = 20;
 
-// A sum whose error does not grow with the number of terms (Neumaier 1974).
-class Sum {
-    private sum = 0;
-    private rest = 0;
-
-    add(term: number): number {
-        const next = this.sum + term;
-        this.rest += Math.abs(this.sum) >= Math.abs(term) ? this.sum - next + term : term - next + this.sum;
-        this.sum = next;
-        return this.value();
-    }
-
-    value(): number {
-        return this.sum + this.rest;
-    }
-}
-
 class LogRecorder {
     ticks = 0;
     private gaps = 0;
     private was_in_gap = false;
-    private readonly delivered = new Sum();
-    private readonly final = new Sum();
+    private angle_delivered = 0;
     private readonly flags = new Array<number>(n_flags).fill(0);
     private readonly angle = new Envelope(most_stretches);
     private readonly rate = new Envelope(most_stretches);
@@ -73,13 +55,12 @@ class LogRecorder {
     private take_tick(row: Float64Array): void {
         const at = tick_column;
         const t_s = (row[at.tick] + 1) * this.tick_s;
-        this.delivered.add(row[at.delivered]);
-        const angle = this.final.add(row[at.final]);
-        this.angle.add(t_s, [angle]);
+        this.angle_delivered = row[at.angle_delivered];
+        this.angle.add(t_s, [row[at.angle]]);
         this.rate.add(t_s, [row[at.final] / this.tick_s, row[at.read] / this.tick_s]);
         this.difference.add(t_s, [row[at.read_less], row[at.paper_less]]);
         this.light.add(t_s, [row[at.detuning], row[at.piezo]]);
-        [row[at.read_less], row[at.paper_less], 0].forEach((less, which) => this.deviations[which].add(angle + less));
+        [row[at.read_less], row[at.paper_less], 0].forEach((less, which) => this.deviations[which].add(row[at.angle] + less));
         const gap = (row[at.flags] & in_gap) !== 0;
         if (gap && !this.was_in_gap) ++this.gaps;
         this.was_in_gap = gap;
@@ -98,7 +79,7 @@ class LogRecorder {
         return {
             ticks: this.ticks,
             gaps: this.gaps,
-            angle_arcsec: this.delivered.value(),
+            angle_arcsec: this.angle_delivered,
             n_switches: this.n_switches,
             rms_dp_arcsec: Math.sqrt(this.squares / Math.max(1, this.n_switches)),
             flags: this.flags,
@@ -170,10 +151,10 @@ function read_rows(module: LoopModule, take: (ticks: Float64Array, switches: Flo
         more = module.advance_log(rows_a_slice);
         const ticks = module.rows(View.log_ticks);
         take(ticks, module.rows(View.log_switches));
-        module.forget_log();
+        module.calls.zlg_log_forget();
         n += ticks.length / tick_columns;
         if (performance.now() - shown_ms < progress_ms) continue;
         shown_ms = performance.now();
-        answer({ kind: "log_progress", fraction: module.log_fraction(), ticks: n });
+        answer({ kind: "log_progress", fraction: module.calls.zlg_log_fraction(), ticks: n });
     }
 }

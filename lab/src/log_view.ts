@@ -54,13 +54,13 @@ export class LogView {
         const settings = lines_of("log-settings");
         this.worker = this.make_worker({
             loaded: () => this.worker?.send({ kind: "read_log", file, settings, save: for_saving }),
-            refused: (message) => this.finish(message, "refused"),
-            log_progress: (fraction, ticks) => {
+            refused: ({ message }) => this.finish(message, "refused"),
+            log_progress: ({ fraction, ticks }) => {
                 element<HTMLProgressElement>("log-progress").value = fraction;
                 this.say(`Reading ${file.name}: ${ticks} ticks …`, "reading");
             },
-            log_read: (log) => this.show(log),
-            log_angles: (name, text) => {
+            log_read: ({ log }) => this.show(log),
+            log_angles: ({ name, text }) => {
                 save(`${name.replace(/\.[^.]*$/, "")}-angles.csv`, "text/csv", text);
                 this.finish(`The angles of ${name} are saved.`, "shown");
             },

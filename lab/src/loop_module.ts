@@ -24,21 +24,23 @@ export const enum IntervalLaw {
 
 const now_numbers = 12;
 
+// What answers with a number is called as it is.
 interface Exports {
     memory: WebAssembly.Memory;
     _initialize(): void;
     zlg_text(bytes: number): number;
     zlg_configure(): number;
     zlg_other(wanted: number): void;
-    zlg_drift(budget: number, interval_s: number, run_s: number, switch_error_arcsec: number): number;
-    zlg_interval(law: number, run_s: number, switch_error_arcsec: number): number;
+    // What design_formulas.hpp has; arcsec/s, NaN where the theory has no answer.
+    zlg_drift(budget: Budget, interval_s: number, run_s: number, switch_error_arcsec: number): number;
+    zlg_interval(law: IntervalLaw, run_s: number, switch_error_arcsec: number): number;
     zlg_gap_weights(extrapolates: number, order: number, gap_ticks: number): number;
     zlg_motion(values: number): number;
     zlg_advance(halves: number): number;
     zlg_turn(rate_arcsec_s: number): number;
-    zlg_let_go(): void;
+    zlg_let_go(): void; // all turns are forgotten
     zlg_time_s(): number;
-    zlg_run_halves(): number;
+    zlg_run_halves(): number; // of run.duration_s
     zlg_halves(): number;
     zlg_fingerprint(): number;
     zlg_rows(view: number): number;
@@ -67,7 +69,7 @@ export class Refusal extends Error {}
 
 export class LoopModule {
     private constructor(
-        private readonly exports: Exports,
+        readonly calls: Exports,
         private readonly system: System,
     ) {}
 
@@ -86,92 +88,57 @@ export class LoopModule {
     // other  the settings, over these, of a second gyro on the same motion; null: there is none.
     configure(settings: readonly string[], other: readonly string[] | null = null): void {
         this.hand_over(other ?? []);
-        this.exports.zlg_other(other === null ? 0 : 1);
+        this.calls.zlg_other(other === null ? 0 : 1);
         this.hand_over(settings);
-        this.done(this.exports.zlg_configure());
-    }
-
-    // What design_formulas.hpp has; arcsec/s, NaN where the theory has no answer.
-    drift(budget: Budget, interval_s: number, run_s: number, switch_error_arcsec: number): number {
-        return this.exports.zlg_drift(budget, interval_s, run_s, switch_error_arcsec);
-    }
-
-    best_interval_s(law: IntervalLaw, run_s: number, switch_error_arcsec: number): number {
-        return this.exports.zlg_interval(law, run_s, switch_error_arcsec);
+        this.done(this.calls.zlg_configure());
     }
 
     // points  their number.
     gap_weights(extrapolates: boolean, order: number, gap_ticks: number, points: number): number[] {
-        const place = this.exports.zlg_gap_weights(extrapolates ? 1 : 0, order, gap_ticks);
-        return Array.from(new Float64Array(this.exports.memory.buffer, place, points));
+        const place = this.calls.zlg_gap_weights(extrapolates ? 1 : 0, order, gap_ticks);
+        return Array.from(new Float64Array(this.calls.memory.buffer, place, points));
     }
 
     // The column of a motion file, for gyros that are configured later with this path.
     take_motion(path: string, values: Float64Array): void {
         this.hand_over([path]);
-        const place = this.exports.zlg_motion(values.length);
-        new Float64Array(this.exports.memory.buffer, place, values.length).set(values);
+        const place = this.calls.zlg_motion(values.length);
+        new Float64Array(this.calls.memory.buffer, place, values.length).set(values);
     }
 
     advance(halves: number): void {
-        this.done(this.exports.zlg_advance(halves));
+        this.done(this.calls.zlg_advance(halves));
     }
 
     // From now on the case also turns at this rate, until the next call; gyros that are configured later repeat it.
     turn(rate_arcsec_s: number): void {
-        this.done(this.exports.zlg_turn(rate_arcsec_s));
-    }
-
-    // All turns are forgotten.
-    let_go(): void {
-        this.exports.zlg_let_go();
-    }
-
-    memory_bytes(): number {
-        return this.exports.memory.buffer.byteLength;
-    }
-
-    time_s(): number {
-        return this.exports.zlg_time_s();
-    }
-
-    halves(): number {
-        return this.exports.zlg_halves();
-    }
-
-    // Of run.duration_s.
-    run_halves(): number {
-        return this.exports.zlg_run_halves();
+        this.done(this.calls.zlg_turn(rate_arcsec_s));
     }
 
     fingerprint(): string {
-        const place = this.exports.zlg_fingerprint();
+        const place = this.calls.zlg_fingerprint();
         return place === 0 ? "" : this.text(place, 16);
     }
 
     // The rows of a view since `forget`, a copy: flat, in the columns of live_run.hpp.
     rows(view: View): Float64Array {
-        const numbers = this.exports.zlg_rows_numbers(view);
-        return new Float64Array(this.exports.memory.buffer, this.exports.zlg_rows(view), numbers).slice();
-    }
-
-    forget(): void {
-        this.exports.zlg_forget();
+        const numbers = this.calls.zlg_rows_numbers(view);
+        return new Float64Array(this.calls.memory.buffer, this.calls.zlg_rows(view), numbers).slice();
     }
 
     now(): Float64Array {
-        return new Float64Array(this.exports.memory.buffer, this.exports.zlg_now(), now_numbers).slice();
+        return new Float64Array(this.calls.memory.buffer, this.calls.zlg_now(), now_numbers).slice();
     }
 
     // The table of keys.
     schema(): Schema {
-        this.exports.zlg_schema();
+        this.calls.zlg_schema();
         return JSON.parse(this.message()) as Schema;
     }
 
     // What differs from the defaults, as `section.key=value`.
     changed(): string[] {
-        this.exports.zlg_changed();
+        this.calls.zlg_changed();
         return this.message()
             .split("\n")
             .filter((line) => line !== "");
@@ -181,26 +148,18 @@ export class LoopModule {
     open_log(file: File, settings: readonly string[]): void {
         this.system.file = new PageFile(file);
         this.hand_over([file.name.replaceAll("\n", " "), ...settings]);
-        this.done(this.exports.zlg_log());
+        this.done(this.calls.zlg_log());
     }
 
     // So many more of its rows; false: that was all.
     advance_log(rows: number): boolean {
-        const status = this.exports.zlg_log_advance(rows);
+        const status = this.calls.zlg_log_advance(rows);
         if (status === 0) throw new Refusal(this.message());
         return status === 1;
     }
 
-    forget_log(): void {
-        this.exports.zlg_log_forget();
-    }
-
-    log_fraction(): number {
-        return this.exports.zlg_log_fraction();
-    }
-
     log_facts(): LogFacts {
-        this.exports.zlg_log_facts();
+        this.calls.zlg_log_facts();
         const [facts, settings] = this.message().split("\n\n");
         const [kind, tick_s, ...notes] = facts.split("\n");
         return { kind: kind as LogFacts["kind"], tick_s: Number(tick_s), notes: notes.filter((note) => note !== ""), settings: (settings ?? "").split("\n").filter((line) => line !== "") };
@@ -209,16 +168,16 @@ export class LoopModule {
     private hand_over(settings: readonly string[]): void {
         const bytes = new TextEncoder().encode(settings.join("\n"));
         // The memory may move when the module asks for more: it is looked up after the call.
-        const place = this.exports.zlg_text(bytes.length);
-        new Uint8Array(this.exports.memory.buffer, place, bytes.length).set(bytes);
+        const place = this.calls.zlg_text(bytes.length);
+        new Uint8Array(this.calls.memory.buffer, place, bytes.length).set(bytes);
     }
 
     private message(): string {
-        return this.text(this.exports.zlg_message(), this.exports.zlg_message_bytes());
+        return this.text(this.calls.zlg_message(), this.calls.zlg_message_bytes());
     }
 
     private text(place: number, bytes: number): string {
-        return new TextDecoder().decode(new Uint8Array(this.exports.memory.buffer, place, bytes));
+        return new TextDecoder().decode(new Uint8Array(this.calls.memory.buffer, place, bytes));
     }
 
     private done(status: number): void {

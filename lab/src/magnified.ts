@@ -1,5 +1,5 @@
 // Switches, magnified: one large, and the last few small beside each other, of which a click brings one up.
-import { element, finite, made } from "./elements";
+import { element, finite, made, part } from "./elements";
 import { Chart, short } from "./plots";
 import type { SwitchPicture } from "./protocol";
 
@@ -68,12 +68,6 @@ export class MagnifiedSwitches {
     }
 }
 
-function svg(name: string, attributes: Record<string, string>): SVGElement {
-    const drawn = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) drawn.setAttribute(key, value);
-    return drawn;
-}
-
 // The gap shaded; the true and the interpolated rate where there are both, what was read clipped to the height.
 function drawing(picture: SwitchPicture, has_truth: boolean): SVGElement {
     const [ticks, truth, read, , final] = picture.columns;
@@ -82,12 +76,11 @@ function drawing(picture: SwitchPicture, has_truth: boolean): SVGElement {
     const margin = 0.15 * (most - least) + 1;
     const x = (tick: number) => ((tick - ticks[0]) / (ticks[ticks.length - 1] - ticks[0] || 1)) * width;
     const y = (rate: number) => Math.min(Math.max(height - ((rate - least + margin) / (most - least + 2 * margin)) * height, -4), height + 4);
-    const line = (values: Float64Array, colour: string) => {
+    const whole = part(null, "svg", { viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true" });
+    part(whole, "rect", { x: x(0).toFixed(1), y: 0, width: Math.max(x(picture.gap_ticks) - x(0), 2).toFixed(1), height, class: "gap" });
+    for (const [values, colour] of [[read, "read"], ...(has_truth ? [[truth, "true"]] : []), [final, "ours"]] as [Float64Array, string][]) {
         const points = Array.from(values, (rate, row) => (Number.isFinite(rate) ? `${x(ticks[row]).toFixed(1)},${y(rate).toFixed(1)}` : "")).filter((point) => point !== "");
-        return svg("polyline", { points: points.join(" "), class: colour });
-    };
-    const whole = svg("svg", { viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true" });
-    whole.append(svg("rect", { x: x(0).toFixed(1), y: "0", width: Math.max(x(picture.gap_ticks) - x(0), 2).toFixed(1), height: String(height), class: "gap" }));
-    whole.append(line(read, "read"), ...(has_truth ? [line(truth, "true")] : []), line(final, "ours"));
+        part(whole, "polyline", { points: points.join(" "), class: colour });
+    }
     return whole;
 }

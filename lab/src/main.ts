@@ -62,16 +62,16 @@ class Lab {
         const worker = (listener: Partial<Listener>) => new GyroClient(element("worker").textContent!, element("module").textContent!, listener);
         this.log = new LogView(worker, () => this.flag_names);
         this.client = worker({
-            loaded: (schema) => this.loaded(schema),
-            configured: (changed, is_newest) => this.configured(changed, is_newest),
-            refused: (message, whole) => this.refuse(message, whole),
-            designed: (design) => this.design.show(design),
-            motion_read: (_, settings, note) => {
+            loaded: ({ schema }) => this.loaded(schema),
+            configured: ({ changed }) => this.configured(changed, !this.client.waits()),
+            refused: ({ message, whole }) => this.refuse(message, whole),
+            designed: ({ design }) => this.design.show(design),
+            motion_read: ({ settings, note }) => {
                 this.motions.say(note, false);
                 this.wants_to_run = true;
                 this.begin(with_motion(this.asked.settings, settings));
             },
-            motion_refused: (message) => this.motions.say(message, true),
+            motion_refused: ({ message }) => this.motions.say(message, true),
             frame: (frame) => this.frames.take(frame),
         });
         this.listen();

@@ -1,16 +1,7 @@
 // The drawing of the ring, and the numbers of the half before.
+import { made, part } from "./elements";
 import { short } from "./plots";
 import type { Frame } from "./protocol";
-
-const svg_name = "http://www.w3.org/2000/svg";
-
-function part(parent: Element, name: string, attributes: Record<string, string | number>, text = ""): SVGElement {
-    const made = document.createElementNS(svg_name, name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
-    if (text) made.textContent = text;
-    parent.append(made);
-    return made;
-}
 
 const corners = [
     [70, 70],
@@ -79,12 +70,8 @@ export class RingDrawing {
         this.mode_text = part(drawing, "text", { x: 160, y: 138, "text-anchor": "middle", "font-size": 19, "font-weight": 600, fill: "currentColor" });
         this.loop_text = part(drawing, "text", { x: 160, y: 160, "text-anchor": "middle", "font-size": 13, fill: "currentColor" });
         for (const name of ["Rate of the case", "Detuning", "Piezo", "Next switch", "Runs at"]) {
-            const row = list;
-            const term = document.createElement("dt");
-            const value = document.createElement("dd");
-            term.textContent = name;
-            row.append(term, value);
-            this.values[name] = value;
+            this.values[name] = made("dd");
+            list.append(made("dt", name), this.values[name]);
         }
         requestAnimationFrame((ms) => this.animate(ms, ms));
     }

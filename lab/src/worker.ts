@@ -126,7 +126,7 @@ class Pace {
     // It goes on from where it stops and makes the steps that were asked for before as well.
     private step(halves: number): void {
         this.stop();
-        if (this.state === "paused") this.catch_up_halves = Math.min(Math.max(this.module!.halves(), this.catch_up_halves) + halves, this.end_halves);
+        if (this.state === "paused") this.catch_up_halves = Math.min(Math.max(this.module!.calls.zlg_halves(), this.catch_up_halves) + halves, this.end_halves);
     }
 
     private configure(number: number, gyro: Gyro, running: boolean): void {
@@ -140,7 +140,7 @@ class Pace {
             return;
         }
         if (gyro.from_s === 0) {
-            module.let_go();
+            module.calls.zlg_let_go();
             this.turned = false;
             this.hand = { wanted_arcsec_s: 0, now_arcsec_s: 0 };
         }
@@ -151,9 +151,9 @@ class Pace {
         this.recorder = new Recorder(this.tick_s, this.switching_bit, gyro.fault_s);
         // A recorded motion ends.
         const ends = gyro.until_s !== null || this.settings().text("motion.kind") === "file";
-        this.end_halves = ends ? module.run_halves() : Infinity;
+        this.end_halves = ends ? module.calls.zlg_run_halves() : Infinity;
         this.repeated_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s + 1e-6) * 2 : 0;
-        this.catch_up_halves = gyro.until_s === null ? this.repeated_halves : module.run_halves();
+        this.catch_up_halves = gyro.until_s === null ? this.repeated_halves : module.calls.zlg_run_halves();
         this.state = running || gyro.until_s !== null ? "running" : "paused";
         this.jump_to_switch = false;
         this.fingerprint = { ms: -Infinity, text: "" };
@@ -172,8 +172,8 @@ class Pace {
     }
 
     private restart_pace(): void {
-        this.pace_from = { ms: performance.now(), halves: this.module?.halves() ?? 0 };
-        this.measured = { ms: performance.now(), time_s: this.module?.time_s() ?? 0, speed: 0 };
+        this.pace_from = { ms: performance.now(), halves: this.module?.calls.zlg_halves() ?? 0 };
+        this.measured = { ms: performance.now(), time_s: this.module?.calls.zlg_time_s() ?? 0, speed: 0 };
     }
 
     // So many halves, with what they show.
@@ -189,19 +189,19 @@ class Pace {
         }
         const recorder = this.recorder!;
         recorder.take(module.rows(View.signals), module.rows(View.angles), module.rows(View.switches));
-        module.forget();
+        module.calls.zlg_forget();
         this.changed = true;
-        if (this.jump_to_switch && recorder.has_new_switch && module.halves() > this.repeated_halves) {
+        if (this.jump_to_switch && recorder.has_new_switch && module.calls.zlg_halves() > this.repeated_halves) {
             this.jump_to_switch = false;
             this.state = "paused";
         }
-        if (module.halves() >= this.end_halves) this.state = "done";
+        if (module.calls.zlg_halves() >= this.end_halves) this.state = "done";
     }
 
     // A hand changes the rate of the case steadily: so many of the halves are advanced one by one, until it has the rate that is wanted.
     private follow_hand(halves: number): number {
         const { hand } = this;
-        if (this.module!.halves() < this.repeated_halves) return 0; // its turns are known
+        if (this.module!.calls.zlg_halves() < this.repeated_halves) return 0; // its turns are known
         const most = (acceleration_arcsec_s2 * this.tick_s) / 2;
         let n = 0;
         for (; n < halves && hand.now_arcsec_s !== hand.wanted_arcsec_s; ++n) {
@@ -215,7 +215,7 @@ class Pace {
 
     // Halves that are due now.
     private due(): number {
-        const halves = this.module!.halves();
+        const halves = this.module!.calls.zlg_halves();
         if (halves < this.catch_up_halves) return this.catch_up_halves - halves;
         if (this.state !== "running") return 0;
         if (this.jump_to_switch || this.speed === Infinity) return this.end_halves - halves;
@@ -232,7 +232,7 @@ class Pace {
     private work(): void {
         this.awake = false;
         if (this.gyro === null || this.recorder === null || this.state === "refused") return;
-        const was_catching_up = this.module!.halves() < this.catch_up_halves;
+        const was_catching_up = this.module!.calls.zlg_halves() < this.catch_up_halves;
         const end_ms = performance.now() + slice_ms;
         let due = this.due();
         const worked = due > 0;
@@ -240,9 +240,9 @@ class Pace {
             const halves = Math.min(due, halves_a_call);
             this.advance(halves);
             if ((this.state as State) === "refused") return;
-            due = this.state === "running" || this.module!.halves() < this.catch_up_halves ? due - halves : 0;
+            due = this.state === "running" || this.module!.calls.zlg_halves() < this.catch_up_halves ? due - halves : 0;
         }
-        if (was_catching_up && this.module!.halves() >= this.catch_up_halves) this.restart_pace();
+        if (was_catching_up && this.module!.calls.zlg_halves() >= this.catch_up_halves) this.restart_pace();
         this.show();
         if (due > 0) this.wake();
         else if (this.state === "running" || (this.changed && !worked)) setTimeout(() => this.wake(), 8);
@@ -258,7 +258,7 @@ class Pace {
     private show(): void {
         const now_ms = performance.now();
         if (!this.changed || !(this.frame_is_seen || this.answers_reader)) return;
-        const stands = this.state !== "running" && this.module!.halves() >= this.catch_up_halves;
+        const stands = this.state !== "running" && this.module!.calls.zlg_halves() >= this.catch_up_halves;
         if (!stands && !this.answers_reader && now_ms - this.last_frame_ms < frame_ms) return;
         this.answers_reader = false;
         this.last_frame_ms = now_ms;
@@ -274,15 +274,15 @@ class Pace {
         if (stands || now_ms - this.fingerprint.ms > fingerprint_ms) this.fingerprint = { ms: now_ms, text: this.turned ? "" : module.fingerprint() };
         const passed_s = (now_ms - this.measured.ms) / 1000;
         if (passed_s > 0.5) {
-            const speed = (module.time_s() - this.measured.time_s) / passed_s;
-            this.measured = { ms: now_ms, time_s: module.time_s(), speed };
+            const speed = (module.calls.zlg_time_s() - this.measured.time_s) / passed_s;
+            this.measured = { ms: now_ms, time_s: module.calls.zlg_time_s(), speed };
         }
         return {
             kind: "frame",
             number: this.number,
             state: this.state,
             tick_s: this.tick_s,
-            time_s: module.time_s(),
+            time_s: module.calls.zlg_time_s(),
             speed: this.state === "running" ? this.measured.speed : 0,
             fingerprint: this.fingerprint.text,
             turned: this.turned,
@@ -292,7 +292,7 @@ class Pace {
             pictures: recorder.pictures.take(),
             switches: recorder.new_switches(),
             allan: recorder.allan(),
-            module_bytes: module.memory_bytes(),
+            module_bytes: module.calls.memory.buffer.byteLength,
             raised: recorder.raised,
             raised_since_fault: recorder.raised_since_fault,
         };
