@@ -18,7 +18,9 @@ struct AcceptCampaignTask {
 struct VerdictScore {
     int beyond = 0, passed = 0;  // of those
     int within = 0, failed = 0;
+    int open = 0;  // without a value
     int undecided = 0;
+    double foreseen = 0.0;         // as many of these by the true values, their scatter and the errors that are stated
     int predicted = 0;             // undecided ones that were measured on
     std::array<int, 3> decided{};  // of those, at these parts of the time predicted
     static constexpr std::array<double, 3> parts{1.0 / 1.5, 1.0, 1.5};
@@ -40,9 +42,9 @@ struct AcceptCampaign {
 };
 
 // One sample a second for an hour and more, white noise, every second unit with a rate random walk, every third with a
-// low pass. The bias and the angle random walk are well within, near or well beyond their limits. Every tenth log is no
-// measurement. Every tenth unit is a gyro of ours that switches, with a limit of its half-wave voltage and its magnetic
-// drift.
+// low pass; a rate table, a warming, a run over temperatures and three magnetic fields. The bias and one other quantity
+// are well within, near or well beyond their limits, the others well within. Every tenth static log is no measurement.
+// Every tenth unit is a gyro of ours that switches, with limits of what only it has; every second of these warms.
 //
 // errors  those of acceptance::accept.
 [[nodiscard]] AcceptCampaign run_accept_campaign(const AcceptCampaignTask& task);
