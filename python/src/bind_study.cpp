@@ -149,6 +149,7 @@ py::dict analyze(const config::Config& config, Axes& axes, std::int64_t settling
 
 // The record as JSON, and the page.
 py::tuple accept(const std::string& plan, const config::Config& said, int threads, const py::object& progress) {
+    if (!(threads >= 1)) throw std::invalid_argument{"threads: allowed is 1 and more"};
     const Progress notify{progress};
     std::string record, html;
     {

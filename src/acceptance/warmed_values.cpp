@@ -83,9 +83,9 @@ struct Settling {
 };
 
 // Each mean of the course, over the quarter of its time around it, against that of the last quarter of the run. What
-// it may be off by: noise, from the steps of the second half, and the end itself, which may still move: of a decay
-// that takes up to 0.85 of the run three times what the last quarter differs by from the one before, beyond noise, is
-// left.
+// it may be off by: noise, from the steps of the second half, and the end itself, which may still move: of a decay by q
+// a quarter q/(1 - q) of what the last quarter differs by from the one before, beyond noise, is left. A slower one may
+// hide under it: twice that counts, up to three times, as much as one leaves that takes up to 0.85 of the run.
 Settling settling_in(const std::vector<Point>& course, double band) {
     const std::size_t n = course.size(), quarter = n / 4;
     std::vector<double> sums{0.0};
@@ -97,7 +97,9 @@ Settling settling_in(const std::vector<Point>& course, double band) {
     for (std::size_t k = n / 2 + 1; k < n; ++k) steps += std::pow(course[k].rate - course[k - 1].rate, 2);
     const double variance = 0.5 * steps / static_cast<double>(n - n / 2 - 1), end = mean(n - quarter, n);
     const double apart = mean(n - 2 * quarter, n - quarter) - end;
-    const double moves = 3.0 * std::sqrt(std::max(0.0, apart * apart - 2.0 * variance / static_cast<double>(quarter)));
+    const double before = mean(n - 3 * quarter, n - 2 * quarter) - mean(n - 2 * quarter, n - quarter);
+    const double q = apart / before, left = q >= 0.0 && q < 0.6 ? 2.0 * q / (1.0 - q) : 3.0;
+    const double moves = left * std::sqrt(std::max(0.0, apart * apart - 2.0 * variance / static_cast<double>(quarter)));
     Settling s;
     for (std::size_t k = 0; k < n; ++k) {
         const std::size_t from = k - k / 8, to = std::min(n, k + k / 8 + 1);

@@ -57,3 +57,8 @@ def test_what_the_program_refuses_is_an_exception(plan):
     plan.write_text(PLAN.replace("static", "still"))
     with pytest.raises(zlg.ConfigError, match="allowed is static"):
         zlg.accept(plan)
+
+
+def test_threads_that_cannot_be_are_no_finding_about_the_gyro(plan):
+    with pytest.raises(ValueError, match="threads"):
+        zlg.accept(plan, threads=0)

@@ -42,4 +42,16 @@ TEST(AcceptCampaign, hours_that_are_wrong_by_half_are_found) {
     EXPECT_FALSE(is_good(20, 33));
 }
 
+// Ten foreseen: by 1.5 and chance 27 at the most.
+TEST(AcceptCampaign, verdicts_that_stay_open_without_reason_are_found) {
+    const auto is_good = [](int undecided, double foreseen) {
+        return trials::VerdictScore{.undecided = undecided, .foreseen = foreseen, .known = 100, .squares = 100.0}
+            .is_good(0.05);
+    };
+    EXPECT_TRUE(is_good(10, 10.0));
+    EXPECT_FALSE(is_good(28, 10.0));
+    EXPECT_TRUE(is_good(50, 60.0));
+    EXPECT_FALSE(is_good(15, 60.0));
+}
+
 }  // namespace zlg::accept_campaign_test
