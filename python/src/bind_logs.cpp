@@ -70,9 +70,9 @@ py::dict read_raw(const std::string& path, bool light, const py::object& progres
 
 py::dict axis_dict(logs::ImportedAxis& axis) {
     py::dict d("name"_a = axis.name, "rate_hz"_a = axis.rate_hz, "warnings"_a = axis.warnings);
-    d["rates_arcsec_s"] = as_array(std::move(axis.rates_arcsec_s));
+    d["rates_arcsec_s"] = as_array(axis.rates_arcsec_s.vector());
     if (!axis.mode.empty()) d["mode"] = as_array(std::move(axis.mode));
-    if (!axis.phase_arcsec.empty()) d["phase_arcsec"] = as_array(std::move(axis.phase_arcsec));
+    if (!axis.phase_arcsec.empty()) d["phase_arcsec"] = as_array(axis.phase_arcsec.vector());
     return d;
 }
 

@@ -1,10 +1,13 @@
 #include <zlg/deviations/angle_record.hpp>
 
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include <zlg/logs/long_column.hpp>
 
 namespace zlg::deviations {
 namespace {
@@ -89,6 +92,19 @@ void AngleRecord::build(std::span<const std::uint8_t> valid) {
         sum.add(value - known.mean);
         ++count;
     }
+}
+
+void use_in_place(std::vector<double>& rates, double rate_hz, const std::function<void(const AngleRecord&)>& use) {
+    logs::LongColumn kept;
+    for (const double rate : rates) kept.push_back(rate);
+    std::exception_ptr error;
+    try {
+        use(AngleRecord({DataKind::rate, Unit::arcsec_s, rate_hz}, std::move(rates)));
+    } catch (...) {
+        error = std::current_exception();
+    }
+    rates = kept.vector();
+    if (error) std::rethrow_exception(error);
 }
 
 }  // namespace zlg::deviations

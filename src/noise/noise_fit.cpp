@@ -90,16 +90,18 @@ deviations::DeviationCurve hadamard_curve(const deviations::AngleRecord& record,
 }
 
 // step  of a counter that hardly counts, 0: it is none.
-HadamardPoints hadamard_points(std::span<const double> rates, double rate_hz, double step,
+HadamardPoints hadamard_points(std::vector<double>& rates, double rate_hz, double step,
                                const NoiseFitOptions& options) {
-    const deviations::AngleRecord record(
-        {.what = {deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, .values = rates});
-    const std::int64_t n = record.n_intervals();
-    const double missing_ratio = 1.0 - static_cast<double>(record.n_known()) / static_cast<double>(record.n_samples());
+    const auto n = std::ssize(rates);
+    double missing_ratio = 0.0;
+    deviations::DeviationCurve curve;
+    deviations::use_in_place(rates, rate_hz, [&](const deviations::AngleRecord& record) {
+        missing_ratio = 1.0 - static_cast<double>(record.n_known()) / static_cast<double>(n);
+        curve = hadamard_curve(record, missing_ratio, options);
+    });
     // What rounding may add to a variance, whose four angles it shifts by up to a count, is a small part of it.
     constexpr double small_part = 0.1, most_rounding = 0.6;
     const double rounding = most_rounding / small_part * std::pow(step / rate_hz, 2);
-    const auto curve = hadamard_curve(record, missing_ratio, options);
     HadamardPoints points{.tau_0_s = 1.0 / rate_hz, .n_intervals = n};
     for (std::size_t k = 1; k < rates.size(); ++k)
         if (std::isfinite(rates[k - 1]) && !std::isfinite(rates[k]))
@@ -296,7 +298,7 @@ NoiseFit fit_noise(const deviations::Series& series, const NoiseFitOptions& opti
     return fit_noise_in_place(rates, series.what.rate_hz, options);
 }
 
-NoiseFit fit_noise_in_place(std::span<double> rates, double rate_hz, const NoiseFitOptions& options) {
+NoiseFit fit_noise_in_place(std::vector<double>& rates, double rate_hz, const NoiseFitOptions& options) {
     check(
         deviations::Series{.what = {deviations::DataKind::rate, deviations::Unit::arcsec_s, rate_hz}, .values = rates});
     check_known(rates);

@@ -41,7 +41,7 @@ twin::Motion motion_of_file(const config::Motion& m) {
     const logs::TextLayout layout = text_layout(m);
     logs::TextTable table = logs::read_text_table(m.path, layout);
     refuse_times(m, layout, table);
-    std::vector<double>& values = table.columns.front().values;
+    std::vector<double> values = table.columns.front().values.vector();
     for (std::size_t row = 0; row < values.size(); ++row) {
         const double read = values[row];
         values[row] = rig::motion_increment_arcsec(m, read);

@@ -197,7 +197,7 @@ void take_fit(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
     std::vector<double>& rates = record.rates_arcsec_s;
     try {
         if (axis.modes) take_curve_left(task, record, axis);
-        const double mean = mean_of(rates);
+        const double mean = axis.modes || axis.temperature ? mean_of(rates) : axis.mean_arcsec_s;
         axis.fit = noise::fit_noise_in_place(rates, record.rate_hz, {.threads = task.threads});
         if (!axis.fit->terms.sines.empty()) axis.mean_arcsec_s += mean_of(rates) - mean;
         if (task.with_page && (axis.modes || !axis.fit->terms.sines.empty()))

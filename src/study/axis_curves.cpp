@@ -56,13 +56,6 @@ std::vector<std::int64_t> factors_of(const config::Analysis& c, DeviationKind ki
     return factors;
 }
 
-// Angles are taken as they were recorded; they are not needed after.
-AngleRecord angle_of(AxisRecord& record) {
-    if (record.phase_arcsec.empty()) return record_of(record.rates_arcsec_s, record.rate_hz);
-    return AngleRecord({deviations::DataKind::phase, deviations::Unit::arcsec, record.rate_hz},
-                       std::move(record.phase_arcsec));
-}
-
 bool is_allan(DeviationKind kind) {
     return kind == DeviationKind::oadev || kind == DeviationKind::adev || kind == DeviationKind::totdev;
 }
@@ -96,13 +89,20 @@ deviations::DeviationCurve octave_oadev(const AnalysisTask& task, const AngleRec
 }
 
 void take_curves(const AnalysisTask& task, AxisRecord& record, AxisResult& axis) {
-    const AngleRecord angle = angle_of(record);
-    for (const config::Deviation d : task.config.deviations) {
-        const DeviationKind kind = kind_of(d);
-        axis.curves.push_back(deviations::deviation(
-            angle, kind, factors_of(task.config, kind, angle.n_intervals(), record.rate_hz), options_of(task)));
-    }
-    axis.allan = allan_curve(task, angle, axis.curves);
+    const auto take = [&](const AngleRecord& angle) {
+        for (const config::Deviation d : task.config.deviations) {
+            const DeviationKind kind = kind_of(d);
+            axis.curves.push_back(deviations::deviation(
+                angle, kind, factors_of(task.config, kind, angle.n_intervals(), record.rate_hz), options_of(task)));
+        }
+        axis.allan = allan_curve(task, angle, axis.curves);
+    };
+    // Angles are taken as they were recorded; they are not needed after.
+    if (record.phase_arcsec.empty())
+        deviations::use_in_place(record.rates_arcsec_s, record.rate_hz, take);
+    else
+        take(AngleRecord({deviations::DataKind::phase, deviations::Unit::arcsec, record.rate_hz},
+                         std::move(record.phase_arcsec)));
 }
 
 }  // namespace zlg::study

@@ -69,8 +69,8 @@ AxisRecord axis_of(const std::string& path, logs::ImportedAxis&& from) {
     axis.group = path;
     axis.holds = std::move(from.holds);
     axis.rate_hz = from.rate_hz;
-    axis.rates_arcsec_s = std::move(from.rates_arcsec_s);
-    axis.phase_arcsec = std::move(from.phase_arcsec);
+    axis.rates_arcsec_s = from.rates_arcsec_s.vector();
+    axis.phase_arcsec = from.phase_arcsec.vector();
     axis.mode = std::move(from.mode);
     axis.warnings = std::move(from.warnings);
     return axis;

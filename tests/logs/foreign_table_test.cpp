@@ -21,7 +21,7 @@ TEST(ForeignTable, finds_names_and_units_below_other_lines) {
     ASSERT_EQ(table.columns.size(), 3u);
     EXPECT_EQ(table.columns[0].name, "t [s]");
     EXPECT_EQ(table.columns[1].name, "w [deg/h]");
-    EXPECT_EQ(table.read({2}, 1).columns[0].values, (std::vector<double>{2.5, 2.75, 2.25}));
+    EXPECT_EQ(table.read({2}, 1).columns[0].values.vector(), (std::vector<double>{2.5, 2.75, 2.25}));
     EXPECT_EQ(column_named(table, "W").number, 2);
     EXPECT_EQ(column_named(table, "w [deg/h]").number, 2);
     EXPECT_THROW((void)column_named(table, "x"), MappingError);

@@ -49,7 +49,7 @@ TEST(RowTimes, rows_that_are_missing_are_found_and_filled) {
     ASSERT_EQ(times->holes.size(), 2u);
     EXPECT_EQ(times->holes[0].row, 9u);
     EXPECT_EQ(times->n_missing, 6);
-    std::vector<double> rates(30, 1.0);
+    LongColumn rates = std::vector<double>(30, 1.0);
     fill_holes(rates, *times);
     ASSERT_EQ(rates.size(), 36u);
     for (std::size_t k = 10; k < 15; ++k) EXPECT_TRUE(std::isnan(rates[k]));

@@ -196,7 +196,7 @@ TEST_F(TextColumns, a_mark_that_comes_late_is_the_only_one) {
 TEST_F(TextColumns, columns_are_chosen_by_the_names_of_the_header) {
     const TextTable table = read_text_table(write("\"time_s\", \"gyro z\", temp\n0, 5.5, 20\n1, 6.5, 21\n2, 7, 22\n"),
                                             {.columns = {"gyro z", "3"}});
-    EXPECT_EQ(table.columns[0].values, (std::vector<double>{5.5, 6.5, 7.0}));
+    EXPECT_EQ(table.columns[0].values.vector(), (std::vector<double>{5.5, 6.5, 7.0}));
     EXPECT_EQ(described(table.columns[1]), "column 3, 'temp'");
     ASSERT_TRUE(table.times);
     EXPECT_EQ(table.times->name, "time_s");

@@ -54,9 +54,7 @@ struct ImuRows {
     }
 
     [[nodiscard]] TextColumn column(std::int64_t number) const {
-        TextColumn empty{.number = number, .name = names().at(static_cast<std::size_t>(number - 1)), .values = {}};
-        empty.values.reserve(sensor.n_messages);
-        return empty;
+        return {.number = number, .name = names().at(static_cast<std::size_t>(number - 1)), .values = {}};
     }
 
     [[nodiscard]] std::vector<std::string> names() const {

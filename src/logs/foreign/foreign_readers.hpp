@@ -23,12 +23,13 @@ struct ForeignArray {
     std::string unit;      // empty: not said
     std::size_t rows = 0;  // of a matrix the longer side
     std::size_t columns = 1;
-    bool may_be_rounded = false;  // whole numbers of 8 bytes
-    // The first rows, one column behind the other. `is_used`: numbers are made of them, and must be what they stand
-    // for.
+    bool may_be_rounded = false;   // whole numbers of 8 bytes
+    std::size_t rows_at_once = 1;  // to be read together, or multiples of them
+    // Rows from the one of index `from` on, one column behind the other. `is_used`: numbers are made of them, and must
+    // be what they stand for.
     //
     // errors  IoError; FormatError: damaged, or, used, scaled by an attribute.
-    std::function<std::vector<double>(std::size_t n_rows, bool is_used)> read;
+    std::function<std::vector<double>(std::size_t from, std::size_t n_rows, bool is_used)> read;
 };
 
 // Adds a column of the times whose seconds and fractions stand in two; the first such pair.

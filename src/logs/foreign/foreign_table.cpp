@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <zlg/logs/budget.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/file_nature.hpp>
@@ -16,6 +17,8 @@
 namespace zlg::logs {
 
 namespace {
+
+constexpr std::size_t most_at_once = std::size_t{1} << 16;  // numbers
 
 // A name without the unit behind it.
 std::string_view bare(std::string_view name) {
@@ -36,7 +39,7 @@ std::string all_columns(const ForeignTable& table) {
 }
 
 void add_columns(ForeignTable& table, const ForeignArray& array, std::size_t n_rows) {
-    const std::vector<double> values = array.read(n_rows, false);
+    const std::vector<double> values = array.read(0, n_rows, false);
     for (std::size_t c = 0; c < array.columns; ++c) {
         ForeignColumn column{.number = std::ssize(table.columns) + 1, .name = array.name, .first = {}, .values = {}};
         if (array.columns > 1) column.name += fmt::format("{}{}", array.name.empty() ? "" : "_", c + 1);
@@ -53,35 +56,38 @@ TextColumn empty_column(std::int64_t number, const std::vector<std::string>& nam
     return {.number = number, .name = names[static_cast<std::size_t>(number - 1)], .values = {}};
 }
 
-// Times that are rounded still say how the rows lie.
-void check_exact(const std::string& path, const TextColumn& column) {
+void refuse_rounded(const std::string& path, const TextColumn& column, std::span<const double> values) {
     constexpr double exact_whole = 9007199254740992.0;  // 2^53
-    for (const double v : column.values)
+    for (const double v : values)
         if (std::fabs(v) >= exact_whole)
             throw FormatError(
                 fmt::format("{}, {}: holds {:.17g}; allowed are whole numbers below 2^53", path, described(column), v));
 }
 
-// Each array is read once, and given back before the next.
+// Each array is read once, some rows at a time.
 void fill_columns(const std::string& path, TextTable& table, const std::vector<ForeignArray>& arrays) {
     std::size_t first = 0;  // column of the array, from 0
     for (const ForeignArray& array : arrays) {
-        std::vector<double> values;
-        const auto fill = [&](TextColumn& column) {  // where it is of this array
+        std::vector<TextColumn*> wanted;
+        const auto want = [&](TextColumn& column) {
             const auto number = static_cast<std::size_t>(column.number - 1);
-            if (number < first || number >= first + array.columns) return false;
-            if (array.columns == 1) {
-                column.values = array.read(array.rows, true);
-                return true;
-            }
-            if (values.empty()) values = array.read(array.rows, true);
-            const auto begin = values.begin() + static_cast<std::ptrdiff_t>((number - first) * array.rows);
-            column.values.assign(begin, begin + static_cast<std::ptrdiff_t>(array.rows));
-            return true;
+            if (number >= first && number < first + array.columns) wanted.push_back(&column);
         };
-        for (TextColumn& column : table.columns)
-            if (fill(column) && array.may_be_rounded) check_exact(path, column);
-        if (table.times) fill(*table.times);
+        for (TextColumn& column : table.columns) want(column);
+        if (table.times) want(*table.times);
+        const std::size_t together = (most_at_once / array.columns / array.rows_at_once + 1) * array.rows_at_once;
+        for (std::size_t from = 0; from < array.rows && !wanted.empty(); from += together) {
+            const std::size_t n = std::min(together, array.rows - from);
+            const std::vector<double> read = array.read(from, n, true);
+            for (TextColumn* column : wanted) {
+                const auto at = (static_cast<std::size_t>(column->number - 1) - first) * n;
+                const auto values = std::span{read}.subspan(at, n);
+                // Times that are rounded still say how the rows lie.
+                if (array.may_be_rounded && !(table.times && column == &*table.times))
+                    refuse_rounded(path, *column, values);
+                for (const double value : values) column->values.push_back(value);
+            }
+        }
         first += array.columns;
     }
 }

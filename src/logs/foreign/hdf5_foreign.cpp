@@ -114,30 +114,33 @@ struct StoredSet {
         return std::max<hsize_t>(chunks_at_once / ((columns + across - 1) / across), 1) * along;
     }
 
-    // What was never written is missing.
-    void read_block(const hdf5::Index& begin, const hdf5::Index& count, const hdf5::Index& size,
-                    std::vector<double>& values) const {
+    // Into the rows of `values`, which begin with `first`; what was never written is missing.
+    void read_block(const hdf5::Index& begin, const hdf5::Index& count, const hdf5::Index& first,
+                    const hdf5::Index& size, std::vector<double>& values) const {
         const std::vector<hdf5::Index> unwritten = chunks.unwritten(*file, path, set.get(), begin, count);
         const Handle space{H5Dget_space(set.get()), &H5Sclose};
         const Handle memory{H5Screate_simple(rank, size.data(), nullptr), &H5Sclose};
+        const hdf5::Index to{begin[0] - first[0], begin[1] - first[1]};
         if (H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr) < 0 ||
-            H5Sselect_hyperslab(memory.get(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr) < 0 ||
+            H5Sselect_hyperslab(memory.get(), H5S_SELECT_SET, to.data(), nullptr, count.data(), nullptr) < 0 ||
             H5Dread(set.get(), H5T_NATIVE_DOUBLE, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
             file->fail_to_read(path);
         for (const hdf5::Index& at : unwritten)
-            for (hsize_t k = at[0]; k < std::min(at[0] + chunks.size()[0], size[0]); ++k)
-                for (hsize_t j = at[1]; j < std::min(at[1] + chunks.size()[1], size[1]); ++j)
-                    values[k * size[1] + j] = NAN;
+            for (hsize_t k = std::max(at[0], first[0]); k < std::min(at[0] + chunks.size()[0], first[0] + size[0]); ++k)
+                for (hsize_t j = std::max(at[1], first[1]); j < std::min(at[1] + chunks.size()[1], first[1] + size[1]);
+                     ++j)
+                    values[(k - first[0]) * size[1] + j - first[1]] = NAN;
     }
 
-    [[nodiscard]] std::vector<double> read(std::size_t n, bool is_used) const {
+    [[nodiscard]] std::vector<double> read(std::size_t from, std::size_t n, bool is_used) const {
         std::vector<double> values(n * columns);
         const std::size_t dimension = rows_follow ? 0 : 1;  // that of the rows
         hdf5::Index begin{0, 0}, count{columns, columns}, size{columns, columns};
+        begin[dimension] = from;
         size[dimension] = n;
-        for (; begin[dimension] < n; begin[dimension] += count[dimension]) {
-            count[dimension] = std::min<hsize_t>(rows_at_once(), n - begin[dimension]);
-            read_block(begin, count, size, values);
+        for (const hdf5::Index first = begin; begin[dimension] < from + n; begin[dimension] += count[dimension]) {
+            count[dimension] = std::min<hsize_t>(rows_at_once(), from + n - begin[dimension]);
+            read_block(begin, count, first, size, values);
         }
         if (is_used) check(values);
         return rows_follow ? by_columns(std::move(values), columns) : values;
@@ -229,6 +232,7 @@ private:
                            .rows = std::max(size[0], size[1]),
                            .columns = std::min(size[0], size[1]),
                            .may_be_rounded = kind == H5T_INTEGER && H5Tget_size(type.get()) >= 8,
+                           .rows_at_once = std::max<hsize_t>(1, chunks.size()[rows_follow ? 0 : 1]),
                            .read = {}};
         array.read = [stored = std::make_shared<const StoredSet>(StoredSet{.file = file_,
                                                                            .path = path,
@@ -239,7 +243,7 @@ private:
                                                                            .rank = rank,
                                                                            .rows_follow = rows_follow,
                                                                            .chunks = std::move(chunks)})](
-                         std::size_t n, bool is_used) { return stored->read(n, is_used); };
+                         std::size_t from, std::size_t n, bool is_used) { return stored->read(from, n, is_used); };
         arrays_.push_back(std::move(array));
     }
 

@@ -47,29 +47,31 @@ ImportedAxis axis_of(const ForeignLook& look, TextColumn& column, const RowClock
     refuse_wraps(look, column, unit_named(look.mapping.text("unit")).value());
     refuse_missing_marks(look.table.path, column);
     std::vector<std::string> warnings = no_measurements(column, holds);
-    for (std::size_t k = 0; k < column.values.size(); ++k) {
-        column.values[k] *= arcsec;
-        if (!std::isnan(column.values[k]) && !(std::fabs(column.values[k]) <= largest))
+    const double rate_hz = 1.0 / clock.step_s, each_s = holds == "increment" ? rate_hz : 1.0;
+    std::size_t row = 0;
+    column.values.change([&](double value) {
+        ++row;
+        value *= arcsec;
+        if (!std::isnan(value) && !(std::fabs(value) <= largest))
             throw FormatError(fmt::format("{}, {}, row {}: {:g} arcsec; allowed is -1e90..1e90", look.table.path,
-                                          described(column), k + 1, column.values[k]));
-    }
+                                          described(column), row, value));
+        return value * each_s;
+    });
     if (clock.times) fill_holes(column.values, *clock.times);
     ImportedAxis axis{.name = described(column),
                       .holds = words_of(look.mapping),
-                      .rate_hz = 1.0 / clock.step_s,
+                      .rate_hz = rate_hz,
                       .rates_arcsec_s = {},
                       .phase_arcsec = {},
                       .mode = {},
                       .warnings = std::move(warnings)};
     if (holds == "angle") {
         axis.phase_arcsec = std::move(column.values);
-        const std::vector<double>& angle = axis.phase_arcsec;
+        const LongColumn& angle = axis.phase_arcsec;
         for (std::size_t k = 1; k < angle.size(); ++k)
-            axis.rates_arcsec_s.push_back((angle[k] - angle[k - 1]) * axis.rate_hz);
+            axis.rates_arcsec_s.push_back((angle[k] - angle[k - 1]) * rate_hz);
     } else {
         axis.rates_arcsec_s = std::move(column.values);
-        if (holds == "increment")
-            for (double& rate : axis.rates_arcsec_s) rate *= axis.rate_hz;
     }
     if (std::ranges::all_of(axis.rates_arcsec_s, [](double r) { return std::isnan(r); }))
         throw FormatError(fmt::format("{}, {}: no value is known", look.table.path, axis.name));
@@ -94,9 +96,9 @@ std::vector<std::int8_t> modes_of(const ForeignLook& look, TextColumn& column, c
 std::vector<double> table_rates(const ForeignLook& look, TextColumn& column, const RowClock& clock) {
     auto unit = unit_in_name(column.name);
     if (look.mapping.has("table_unit")) unit = unit_named(look.mapping.text("table_unit"));
-    for (double& rate : column.values) rate *= unit.value().arcsec;
+    column.values.change([arcsec = unit.value().arcsec](double rate) { return rate * arcsec; });
     if (clock.times) fill_holes(column.values, *clock.times);
-    return std::move(column.values);
+    return column.values.vector();
 }
 
 }  // namespace
@@ -128,8 +130,8 @@ ImportedAxes imported_axes(const ForeignLook& look) {
     if (look.mapping.has("temperature_c")) {
         TextColumn& column = read.columns[n_axes + (look.mapping.has("mode") ? 1 : 0)];
         if (clock.times) fill_holes(column.values, *clock.times);
-        if (look.mapping.text("holds") == "angle") column.values.erase(column.values.begin());
-        imported.temperature_c = std::move(column.values);
+        imported.temperature_c = column.values.vector();
+        if (look.mapping.text("holds") == "angle") imported.temperature_c.erase(imported.temperature_c.begin());
     }
     for (std::size_t k = 0; k < n_axes; ++k) {
         imported.axes.push_back(axis_of(look, read.columns[k], clock));
@@ -142,7 +144,7 @@ ImportedAxes imported_axes(const ForeignLook& look) {
 
 std::int64_t angle_rows(const ImportedAxis& axis, const std::function<void(const core::AngleRow&)>& take) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    const std::vector<double>& angle = axis.phase_arcsec;
+    const LongColumn& angle = axis.phase_arcsec;
     const std::size_t n = axis.rates_arcsec_s.size();
     for (std::size_t from = 0, to = 0; from < n; from = to) {
         // Between two angles that are known the turn is known, and not where it happened.

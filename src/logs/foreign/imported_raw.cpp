@@ -31,7 +31,7 @@ struct Halves {
 
 // By the signs of the bias: a half ends where they turn. Rows that are missing have none.
 Halves halves_by_signs(const RawSources& from, const std::string& path) {
-    const std::vector<double>& sign = from.find("bias_sign")->values;
+    const LongColumn& sign = from.find("bias_sign")->values;
     std::vector<std::size_t> turns;
     for (std::size_t k = 1; k < sign.size(); ++k)
         if (!std::isnan(sign[k]) && !std::isnan(sign[k - 1]) && sign[k] != sign[k - 1]) turns.push_back(k);
@@ -85,7 +85,7 @@ public:
 
 private:
     void fill_by_numbers() {
-        const std::vector<double>& number = from_.find("half")->values;
+        const LongColumn& number = from_.find("half")->values;
         RowTimes times{.step = 1.0, .tolerance = 0.0, .holes = {}, .n_missing = 0};
         for (std::size_t k = 0; k < number.size(); ++k) {
             const bool whole = number[k] == std::floor(number[k]) && std::fabs(number[k]) < 1e15;

@@ -14,7 +14,7 @@ namespace zlg::logs {
 
 namespace {
 
-void append(std::vector<double>& to, const std::vector<double>& values, double shift) {
+void append(LongColumn& to, const LongColumn& values, double shift) {
     for (const double value : values) to.push_back(value + shift);
 }
 

@@ -27,9 +27,11 @@ std::size_t width_of(StoredMatrix all, std::size_t n) {
         if (n % width != 0) continue;
         const std::size_t rows = std::min<std::size_t>(n / width, 1000);
         all.columns = width;
-        const std::vector<double> values = array_of({}, all).read(rows, false);
+        const std::vector<double> values = array_of({}, all).read(0, rows, false);
         for (const std::size_t c : {std::size_t{0}, width - 1})
-            if (rises_as_time(std::span{values}.subspan(c * rows, rows))) return width;
+            if (const auto at = values.begin() + static_cast<std::ptrdiff_t>(c * rows);
+                rises_as_time(std::vector(at, at + static_cast<std::ptrdiff_t>(rows))))
+                return width;
     }
     return 0;
 }

@@ -80,7 +80,7 @@ void RawSources::refuse_empty_states() const {
 
 // Halves of both signs count both ways about the bias, unless the counter keeps adding or has lost the direction.
 void RawSources::refuse_other_counts() const {
-    const std::vector<double>& counts = find("counts")->values;
+    const LongColumn& counts = find("counts")->values;
     constexpr std::size_t enough = 16;
     double sign = 0.0;
     std::size_t n = 0;
@@ -136,24 +136,24 @@ void RawSources::refuse(std::string_view key, std::size_t k, const std::string& 
                                   row_of_file(k), key, at(key, k), allowed));
 }
 
-void make_signs(std::vector<double>& values, std::optional<double> plus, const std::string& where,
-                const std::string& key) {
+void make_signs(LongColumn& values, std::optional<double> plus, const std::string& where, const std::string& key) {
     double other = missing;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-        double& value = values[k];
-        if (std::isnan(value)) continue;
+    std::size_t row = 0;
+    values.change([&](double value) {
+        ++row;
+        if (std::isnan(value)) return value;
         if (!plus) {
-            if (std::fabs(value) == 1.0) continue;
+            if (std::fabs(value) == 1.0) return value;
             throw MappingError(
                 fmt::format("{}, row {}: {}; allowed are +1 and -1, or --map {}_plus=... the value that stands for +1",
-                            where, k + 1, value, key));
+                            where, row, value, key));
         }
         if (value != *plus && std::isnan(other)) other = value;
         if (value != *plus && value != other)
             throw FormatError(
-                fmt::format("{}, row {}: {} = {}; allowed is {} or {}", where, k + 1, key, value, *plus, other));
-        value = value == *plus ? 1.0 : -1.0;
-    }
+                fmt::format("{}, row {}: {} = {}; allowed is {} or {}", where, row, key, value, *plus, other));
+        return value == *plus ? 1.0 : -1.0;
+    });
 }
 
 }  // namespace zlg::logs

@@ -12,7 +12,7 @@ namespace zlg::logs {
 
 struct RawSource {
     std::string key;
-    std::vector<double> values;  // of a column; empty: `fixed`
+    LongColumn values;  // of a column; empty: `fixed`
     double fixed = 0.0;
     bool alternates = false;
     std::string from;  // for messages
@@ -22,8 +22,7 @@ struct RawSource {
 // `where` and `key` for messages.
 //
 // errors  MappingError, FormatError: another value.
-void make_signs(std::vector<double>& values, std::optional<double> plus, const std::string& where,
-                const std::string& key);
+void make_signs(LongColumn& values, std::optional<double> plus, const std::string& where, const std::string& key);
 
 class RawSources {
 public:

@@ -31,7 +31,7 @@ double simplest(double step, double allowed) {
 // after a pause of the program that wrote them look like a hole, and are none.
 void check_holes(const TextColumn& times, const RowTimes& found, const std::string& path) {
     constexpr std::size_t reach = 12;
-    const std::vector<double>& t = times.values;
+    const LongColumn& t = times.values;
     for (std::size_t h = 0; h < found.holes.size(); ++h) {
         const std::size_t row = found.holes[h].row;
         std::size_t from = row - std::min(row, reach), to = std::min(row + 1 + reach, t.size() - 1);
@@ -65,7 +65,7 @@ void check_local_time(const TextColumn& times, const RowTimes& found, const std:
 // A row that stands twice would shift all that follow by one. Stamps that are merely late or coarse make up for it
 // beside.
 void check_repetitions(const TextColumn& times, const std::string& path) {
-    const std::vector<double>& t = times.values;
+    const LongColumn& t = times.values;
     std::size_t n_zero = 0;
     for (std::size_t k = 1; k < t.size(); ++k) n_zero += t[k] == t[k - 1] ? 1u : 0u;
     if (n_zero == 0 || 4 * n_zero > t.size()) return;
@@ -85,7 +85,7 @@ void check_repetitions(const TextColumn& times, const std::string& path) {
 // none.
 void check_one_rate(const TextColumn& times, const RowTimes& found, const std::string& path) {
     constexpr std::size_t window = 32, most_holes = 8;
-    const std::vector<double>& t = times.values;
+    const LongColumn& t = times.values;
     const auto refuse = [&](std::size_t row, double step) {
         throw FormatError(
             fmt::format("{}, {}: its rows are {:.6g} apart from row {} on and {:.6g} elsewhere; allowed is one rate "
@@ -131,33 +131,35 @@ struct Place {
     double digit = 0.0;
 };
 
-Place coarse_place(std::span<const double> t, double step) {
+Place coarse_place(const LongColumn& t, double step) {
     double digit = std::pow(10.0, std::floor(std::log10(step) + 1e-9));
     const auto is_place = [&](double v) { return std::fabs(v / digit - std::round(v / digit)) < 1e-4; };
     while (digit > 1e-3 * step && !std::ranges::all_of(t, is_place)) digit /= 10.0;
     if (digit > 0.2 * step) return {digit, true, 0.0};
     if (digit <= 1e-3 * step) digit = 0.0;
+    const double first = t.front();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < t.size(); ++k)
         if (t[k] > t[k - 1]) least = std::min(least, t[k] - t[k - 1]);
     double n_ticks = 0.0;
     for (std::size_t k = 1; k < t.size(); ++k)
-        n_ticks += std::round((t[k] - t[k - 1]) / (n_ticks > 0.0 ? (t[k - 1] - t.front()) / n_ticks : least));
-    const double tick = digit == 0.0 ? least : (t.back() - t.front()) / n_ticks;
-    const double far = std::max(std::fabs(t.front()), std::fabs(t.back()));
+        n_ticks += std::round((t[k] - t[k - 1]) / (n_ticks > 0.0 ? (t[k - 1] - first) / n_ticks : least));
+    const double tick = digit == 0.0 ? least : (t.back() - first) / n_ticks;
+    const double far = std::max(std::fabs(first), std::fabs(t.back()));
     const double rounding = 1e-3 + (digit + 4.0 * far * std::numeric_limits<double>::epsilon()) / tick;
     const bool are_multiples = rounding < 0.2 && std::ranges::all_of(t, [&](double v) {
-                                   const double n = (v - t.front()) / tick;
+                                   const double n = (v - first) / tick;
                                    return std::fabs(n - std::round(n)) < rounding;
                                });
     return {are_multiples && tick > 0.2 * step ? tick : 0.0, false, digit};
 }
 
 // Of the strip about an even course that holds all times; convex in the step.
-double width_about(std::span<const double> t, double step) {
+double width_about(const LongColumn& t, double step) {
+    const double first = t.front();
     double low = 0.0, high = 0.0;
     for (std::size_t k = 0; k < t.size(); ++k) {
-        const double late = t[k] - t.front() - step * static_cast<double>(k);
+        const double late = t[k] - first - step * static_cast<double>(k);
         low = std::min(low, late);
         high = std::max(high, late);
     }
@@ -168,7 +170,7 @@ double width_about(std::span<const double> t, double step) {
 // all within a place of an even course. Where few steps are odd and lie as evenly as those of such a course, both may
 // be: `said`, the step that is said, decides; 0: none is.
 void check_coarse(const TextColumn& times, RowTimes& found, double said, const std::string& path) {
-    const std::vector<double>& t = times.values;
+    const LongColumn& t = times.values;
     const double mean = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
     const auto [place, is_decimal, digit] = coarse_place(t, std::min(mean, found.step));
     if (place == 0.0) return;
@@ -213,7 +215,7 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
 // Of the steps from row to row, holes left out, many are far from the median.
 std::string odd_steps(const TextColumn& times, const RowTimes& found) {
     constexpr double far = 0.5, many = 0.01;
-    const std::vector<double>& t = times.values;
+    const LongColumn& t = times.values;
     const double usual = usual_step(t), n_steps = static_cast<double>(t.size()) - 1.0;
     std::ptrdiff_t n = -std::ssize(found.holes);
     for (std::size_t k = 1; k < t.size(); ++k) n += std::fabs(t[k] - t[k - 1] - usual) > far * usual ? 1 : 0;

@@ -2,7 +2,6 @@
 // How far the rows of a foreign file are apart, and where some are missing.
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -19,10 +18,10 @@ struct RowClock {
 };
 
 // The range after which whole numbers or times begin anew, and else rise; 0: they do not. `origin` was taken off them.
-[[nodiscard]] double begin_of_range(std::span<const double> values, double origin = 0.0);
+[[nodiscard]] double begin_of_range(const LongColumn& values, double origin = 0.0);
 
 // Such values as if their range had no end; returns the range. 0: they have none, and are left.
-double go_on(std::vector<double>& values, double origin = 0.0);
+double go_on(LongColumn& values, double origin = 0.0);
 
 // Makes times that begin anew go on; returns notes.
 [[nodiscard]] std::vector<std::string> settle_times(TextTable& read);

@@ -61,6 +61,8 @@ Piece Piece::of_packed(const Piece& packed, std::size_t size) {
     return piece;
 }
 
+bool Piece::is_packed() const { return source_->packed.size() > 0; }
+
 Piece Piece::part(std::size_t at, std::size_t n) const {
     Piece piece = *this;
     piece.begin_ += at;
@@ -69,7 +71,7 @@ Piece Piece::part(std::size_t at, std::size_t n) const {
 }
 
 void Piece::read(std::size_t at, std::size_t n, char* to) const {
-    if (source_->packed.size() > 0) return source_->read_unpacked(begin_ + at, n, to);
+    if (is_packed()) return source_->read_unpacked(begin_ + at, n, to);
     for (std::size_t done = 0; done < n;) {
         const ssize_t got = ::pread(source_->file.get(), to + done, n - done, static_cast<off_t>(begin_ + at + done));
         if (got < 0 && errno == EINTR) continue;
@@ -161,17 +163,17 @@ ForeignArray array_of(const std::string& name, const StoredMatrix& stored) {
                        .rows = stored.rows,
                        .columns = stored.columns,
                        .may_be_rounded = stored.type == NumberType::i8 || stored.type == NumberType::u8,
+                       // What is packed is unpacked from its beginning to go back to a column before.
+                       .rows_at_once = stored.bytes.is_packed() && stored.columns > 1 ? stored.rows : 1,
                        .read = {}};
-    array.read = [stored](std::size_t n, bool) {
+    array.read = [stored](std::size_t from, std::size_t n, bool) {
+        if (stored.rows_follow)
+            return by_columns(numbers(stored, from * stored.columns, n * stored.columns), stored.columns);
         std::vector<double> values;
-        if (stored.rows_follow) {
-            values = by_columns(numbers(stored, 0, n * stored.columns), stored.columns);
-        } else {
-            values.reserve(n * stored.columns);
-            for (std::size_t c = 0; c < stored.columns; ++c) {
-                const std::vector<double> column = numbers(stored, c * stored.rows, n);
-                values.insert(values.end(), column.begin(), column.end());
-            }
+        values.reserve(n * stored.columns);
+        for (std::size_t c = 0; c < stored.columns; ++c) {
+            const std::vector<double> column = numbers(stored, c * stored.rows + from, n);
+            values.insert(values.end(), column.begin(), column.end());
         }
         return values;
     };

@@ -24,6 +24,7 @@ public:
     [[nodiscard]] static Piece of_packed(const Piece& packed, std::size_t size);
 
     [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool is_packed() const;
     // `at` + `n` may not lie beyond the end.
     [[nodiscard]] Piece part(std::size_t at, std::size_t n) const;
     // errors  IoError: the file has become shorter, or cannot be read.

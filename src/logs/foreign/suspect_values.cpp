@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 #include <zlg/logs/error.hpp>
@@ -27,7 +28,7 @@ struct Step {
 };
 
 template <class Use>
-void each_step(const std::vector<double>& values, Use use) {
+void each_step(const LongColumn& values, Use use) {
     std::size_t last = 0;
     for (std::size_t k = 1; k < values.size(); ++k) {
         if (std::isnan(values[k])) continue;
@@ -37,7 +38,7 @@ void each_step(const std::vector<double>& values, Use use) {
 }
 
 // A saw, whatever its height: nearly all steps go one way, +1 or -1. 0: they do not, as in what swings to and fro.
-double way_of(const std::vector<double>& values) {
+double way_of(const LongColumn& values) {
     constexpr std::size_t enough = 12;
     std::size_t up = 0, down = 0;
     each_step(values, [&](const Step& step) {
@@ -88,30 +89,33 @@ void take_out_missing(const Mapping& mapping, TextTable& read) {
     const auto mark = mapping.real("missing");
     if (!mark) return;
     for (TextColumn& column : read.columns)
-        std::ranges::replace(column.values, *mark, std::numeric_limits<double>::quiet_NaN());
+        column.values.change([&](double v) { return v == *mark ? std::numeric_limits<double>::quiet_NaN() : v; });
 }
 
 void refuse_missing_marks(const std::string& path, const TextColumn& column) {
     constexpr std::array<double, 9> marks{999.0,   9999.0,  99999.0,      999999.0,    9999999.0,
                                           32767.0, 32768.0, 2147483647.0, 2147483648.0};
-    for (const double sign : {-1.0, 1.0}) {
-        for (const double size : marks) {
-            const double mark = sign * size;
-            const auto found = std::ranges::find(column.values, mark);
-            if (found == column.values.end()) continue;
-            double least = std::numeric_limits<double>::infinity(), most = -least;
-            for (const double value : column.values) {
-                if (std::isnan(value) || value == mark) continue;
-                least = std::min(least, value);
-                most = std::max(most, value);
-            }
-            const double apart = std::max(least - mark, mark - most);
-            if (!(most > least) || !(apart > 10.0 * (most - least))) continue;
-            throw FormatError(
-                fmt::format("{}, {}, row {}: {} is far from all other values, as a mark of a missing one is; allowed "
-                            "is nan there, or --map missing={}",
-                            path, described(column), found - column.values.begin() + 1, mark, mark));
+    std::map<std::pair<bool, std::size_t>, std::size_t> first;  // of sign and mark the row, from 0
+    for (std::size_t k = 0; k < column.values.size(); ++k) {
+        const double size = std::fabs(column.values[k]);
+        if (!(size >= marks.front())) continue;
+        const auto m = static_cast<std::size_t>(std::ranges::find(marks, size) - marks.begin());
+        if (m < marks.size()) first.try_emplace({column.values[k] > 0.0, m}, k);
+    }
+    for (const auto& [found, row] : first) {
+        const double mark = found.first ? marks[found.second] : -marks[found.second];
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (const double value : column.values) {
+            if (std::isnan(value) || value == mark) continue;
+            least = std::min(least, value);
+            most = std::max(most, value);
         }
+        const double apart = std::max(least - mark, mark - most);
+        if (!(most > least) || !(apart > 10.0 * (most - least))) continue;
+        throw FormatError(
+            fmt::format("{}, {}, row {}: {} is far from all other values, as a mark of a missing one is; allowed "
+                        "is nan there, or --map missing={}",
+                        path, described(column), row + 1, mark, mark));
     }
 }
 
@@ -135,7 +139,7 @@ struct Steps {
 
 double size_but_0(double step) { return step == 0.0 ? std::numeric_limits<double>::quiet_NaN() : std::fabs(step); }
 
-Steps look_at_steps(const std::vector<double>& values) {
+Steps look_at_steps(const LongColumn& values) {
     constexpr std::size_t many_rows = 32;
     Steps steps;
     double least = std::numeric_limits<double>::infinity();
@@ -212,7 +216,7 @@ private:
 };
 
 struct Rails {
-    explicit Rails(const std::vector<double>& values) {
+    explicit Rails(const LongColumn& values) {
         for (const double value : values) {
             if (std::isnan(value)) continue;
             largest.note(value);
@@ -268,7 +272,10 @@ std::string stretches(const TextColumn& column, const Steps& steps, const Rails&
 
 }  // namespace
 
-std::string spikes(std::span<const double> values, const std::string& what) {
+namespace {
+
+template <class Values>
+std::string spikes_of(const Values& values, const std::string& what) {
     constexpr double far = 100.0;
     constexpr std::size_t longest = 8, longest_of_one_value = 32;
     const double least = far * usual_step(values, 0.5, size_but_0);
@@ -296,12 +303,16 @@ std::string spikes(std::span<const double> values, const std::string& what) {
                        n, n == 1 ? "" : "s", n == 1 ? "s" : "", far, first + 1, values[first]);
 }
 
+}  // namespace
+
+std::string spikes(std::span<const double> values, const std::string& what) { return spikes_of(values, what); }
+
 std::vector<std::string> no_measurements(const TextColumn& column, const std::string& holds) {
     const Steps steps = look_at_steps(column.values);
     const Rails rails{column.values};
     std::vector<std::string> lines;
     for (std::string line :
-         {spikes(column.values, described(column)), repeats(column, steps), stretches(column, steps, rails, holds),
+         {spikes_of(column.values, described(column)), repeats(column, steps), stretches(column, steps, rails, holds),
           holds == "angle" ? std::string{} : rails_in_words(column, steps, rails)})
         if (!line.empty()) lines.push_back(std::move(line));
     return lines;

@@ -31,7 +31,7 @@ const ForeignColumn& column_at(const ForeignTable& table, std::int64_t number) {
 bool is_numbered(const ForeignColumn& column) {
     const auto is_whole = [](double v) { return v == std::floor(v); };
     if (!column.is_number || column.is_part || !std::ranges::all_of(column.values, is_whole)) return false;
-    std::vector<double> values = column.values;
+    LongColumn values = column.values;
     (void)go_on(values);
     if (values.size() < 3 || !std::ranges::is_sorted(values)) return false;
     const double usual = usual_step(values);
@@ -46,7 +46,7 @@ bool rises(const ForeignColumn& column) {
 }
 
 // As a column that is called time does, with holes or not, and though it may begin anew.
-bool goes_on(std::span<const double> values) {
+bool goes_on(const LongColumn& values) {
     if (values.size() < 2) return false;
     return (values.front() < values.back() && std::ranges::is_sorted(values)) || begin_of_range(values) > 0.0;
 }

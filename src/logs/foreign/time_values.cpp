@@ -28,7 +28,7 @@ std::vector<double> ranges(bool of_whole) {
 }
 
 // A row that comes far sooner than one does, where the next one does not come later for it.
-bool is_again(const std::vector<double>& t, std::size_t k, double usual) {
+bool is_again(const LongColumn& t, std::size_t k, double usual) {
     constexpr double soon = 0.1;
     const double step = t[k] - t[k - 1];
     const auto is_a_row = [usual](double step_of_two) { return std::fabs(step_of_two / usual - 1.0) < 0.5; };
@@ -38,7 +38,7 @@ bool is_again(const std::vector<double>& t, std::size_t k, double usual) {
 
 }  // namespace
 
-double begin_of_range(std::span<const double> values, double origin) {
+double begin_of_range(const LongColumn& values, double origin) {
     std::vector<double> falls;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -64,14 +64,14 @@ double begin_of_range(std::span<const double> values, double origin) {
     return 0.0;
 }
 
-double go_on(std::vector<double>& values, double origin) {
+double go_on(LongColumn& values, double origin) {
     const double range = begin_of_range(values, origin);
     if (range == 0.0) return 0.0;
-    double turns = 0.0;
-    for (std::size_t k = 1; k < values.size(); ++k) {
-        if (values[k] + turns < values[k - 1]) turns += range;
-        values[k] += turns;
-    }
+    double turns = 0.0, last = -std::numeric_limits<double>::infinity();
+    values.change([&](double value) {
+        if (value + turns < last) turns += range;
+        return last = value + turns;
+    });
     return range;
 }
 
@@ -105,7 +105,7 @@ void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const s
 
 std::vector<std::string> take_once(TextTable& read, const std::string& path) {
     if (!read.times || read.times->values.size() < 4) return {};
-    std::vector<double>& t = read.times->values;
+    const LongColumn& t = read.times->values;
     const double usual = usual_step(t, 0.75);
     std::vector<std::size_t> again;
     bool are_same = true;
@@ -126,16 +126,17 @@ std::vector<std::string> take_once(TextTable& read, const std::string& path) {
             "{}, {}, the first in row {}, with other values; allowed are messages that stand once, or --map time=none "
             "with rate_hz",
             path, what, again.front() + 1));
-    const auto thin = [&again](std::vector<double>& values) {
-        std::size_t next = 0, to = 0;
+    const auto thin = [&again](LongColumn& values) {
+        std::size_t next = 0;
+        LongColumn thinned;
         for (std::size_t k = 0; k < values.size(); ++k)
             if (next < again.size() && again[next] == k)
                 ++next;
             else
-                values[to++] = values[k];
-        values.resize(to);
+                thinned.push_back(values[k]);
+        values = std::move(thinned);
     };
-    thin(t);
+    thin(read.times->values);
     for (TextColumn& column : read.columns) thin(column.values);
     return {what + ", with its values, and are left out"};
 }

@@ -48,9 +48,12 @@ double parts_in(const ForeignColumn& whole, const ForeignColumn& part) {
 }
 
 // What is taken off, the first second, for a double holds no nanoseconds since 1970.
-double join(std::vector<double>& whole, const std::vector<double>& part, double parts) {
+template <class Values>
+double join(Values& whole, const Values& part, double parts) {
     const double first = whole.empty() ? 0.0 : whole.front();
-    for (std::size_t k = 0; k < whole.size(); ++k) whole[k] = whole[k] - first + part[k] / parts;
+    Values both;
+    for (std::size_t k = 0; k < whole.size(); ++k) both.push_back(whole[k] - first + part[k] / parts);
+    whole = std::move(both);
     return first;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 // From row to row.
 struct Differences {
-    std::span<const double> values;
+    const LongColumn& values;
 
     [[nodiscard]] std::size_t size() const { return values.size() - 1; }
     [[nodiscard]] double operator[](std::size_t k) const { return values[k + 1] - values[k]; }
@@ -37,7 +37,7 @@ double even_share(const Differences& steps, double usual) {
 constexpr std::size_t many_rows = 16;
 constexpr std::int64_t most_missing = 1'000'000'000'000'000;
 
-bool rises_evenly(std::span<const double> values) {
+bool rises_evenly(const LongColumn& values) {
     if (values.size() < 3 || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) return false;
     const double usual = usual_step(values);
     return usual > 0.0 && even_share({values}, usual) >= (values.size() < many_rows ? 1.0 : 0.9);
@@ -75,7 +75,7 @@ const Unit* unnamed_unit(const RowTimes& times, double rate_hz) {
 
 }  // namespace
 
-bool rises_as_time(std::span<const double> values) {
+bool rises_as_time(const LongColumn& values) {
     if (rises_evenly(values)) return true;
     return values.size() >= many_rows &&
            std::ranges::adjacent_find(values, [](double a, double b) { return !(b > a); }) == values.end();
@@ -84,7 +84,7 @@ bool rises_as_time(std::span<const double> values) {
 std::optional<RowTimes> row_times(const TextColumn& column, const std::string& path, bool is_said,
                                   const std::string& none) {
     const bool by_name = is_said || names_time(column.name);
-    const std::vector<double>& values = column.values;
+    const LongColumn& values = column.values;
     if (values.size() < 3) return std::nullopt;
     if (!by_name && !rises_evenly(values)) return std::nullopt;
     const Differences steps{values};
@@ -154,7 +154,7 @@ std::string rate_in_words(const TextColumn& column, const RowTimes& times) {
                        named.value_or(1.0) / times.step, named ? "" : " in seconds");
 }
 
-void refuse_many_missing(const std::string& path, const std::string& column, std::span<const double> values,
+void refuse_many_missing(const std::string& path, const std::string& column, const LongColumn& values,
                          const RowTimes& times, const std::string& if_none) {
     if (times.n_missing <= max_missing_rows(values.size())) return;
     const std::size_t row = std::ranges::max_element(times.holes, {}, &Hole::n_missing)->row;
@@ -166,15 +166,17 @@ void refuse_many_missing(const std::string& path, const std::string& column, std
                     max_missing_rows(values.size()), values.size(), if_none));
 }
 
-void fill_holes(std::vector<double>& values, const RowTimes& times) {
+void fill_holes(LongColumn& values, const RowTimes& times) {
     if (times.holes.empty()) return;
-    if (values.empty()) return;
-    std::size_t from = values.size(), to = from + static_cast<std::size_t>(times.n_missing);
-    values.resize(to);
-    for (auto hole = times.holes.rbegin(); hole != times.holes.rend(); ++hole) {
-        for (; from > hole->row + 1; --from) values[--to] = values[from - 1];
-        for (std::int64_t n = 0; n < hole->n_missing; ++n) values[--to] = std::numeric_limits<double>::quiet_NaN();
+    auto hole = times.holes.begin();
+    LongColumn filled;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        filled.push_back(values[k]);
+        if (hole == times.holes.end() || hole->row != k) continue;
+        for (std::int64_t n = 0; n < hole->n_missing; ++n) filled.push_back(std::numeric_limits<double>::quiet_NaN());
+        ++hole;
     }
+    values = std::move(filled);
 }
 
 }  // namespace zlg::logs

@@ -110,12 +110,6 @@ public:
     [[nodiscard]] const std::string& path() const { return lines_.path(); }
     [[nodiscard]] std::int64_t number() const { return number_; }
     [[nodiscard]] bool terminated() const { return lines_.terminated(); }
-    // Lines of the file, by the length of the first ones, and some more.
-    [[nodiscard]] std::size_t about_all() const {
-        std::size_t n_bytes = 1;
-        for (const Line& line : sample_.lines) n_bytes += line.text.size() + 1;
-        return sample_.lines.size() * (lines_.size_bytes() / n_bytes * 9 / 8 + 1);
-    }
 
     bool next(std::string_view& line) {
         if (n_handed_out_ < sample_.lines.size()) {
@@ -188,8 +182,6 @@ public:
         table_.names = dialect_.names;
         table_.n_columns = static_cast<std::int64_t>(dialect_.n_fields);
         use_.resize(table_.columns.size());
-        for (TextColumn& column : table_.columns) column.values.reserve(lines_.about_all());
-        if (table_.times) table_.times->values.reserve(lines_.about_all());
     }
 
     TextTable read() {
@@ -348,7 +340,7 @@ TextTable read_text_table(const std::string& path, const TextLayout& layout) {
 
 std::vector<std::vector<double>> read_text_columns(const std::string& path, const TextLayout& layout) {
     std::vector<std::vector<double>> values;
-    for (TextColumn& column : read_text_table(path, layout).columns) values.push_back(std::move(column.values));
+    for (const TextColumn& column : read_text_table(path, layout).columns) values.push_back(column.values.vector());
     return values;
 }
 

@@ -2,6 +2,7 @@
 // A record made ready for deviations: the running sum of its increments, and where samples are missing.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -42,5 +43,10 @@ private:
     std::int64_t n_samples_ = 0;
     std::int64_t n_known_ = 0;
 };
+
+// The record of rates, arcsec/s, in whose memory it stands while it is used; of many they lie in a file meanwhile.
+//
+// errors  as AngleRecord(), and of `use`: the rates are back.
+void use_in_place(std::vector<double>& rates, double rate_hz, const std::function<void(const AngleRecord&)>& use);
 
 }  // namespace zlg::deviations

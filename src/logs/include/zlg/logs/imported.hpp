@@ -13,6 +13,7 @@
 
 #include <zlg/core/records.hpp>
 #include <zlg/logs/foreign_table.hpp>
+#include <zlg/logs/long_column.hpp>
 #include <zlg/logs/mapping.hpp>
 #include <zlg/logs/raw_layout.hpp>
 #include <zlg/logs/row_times.hpp>
@@ -59,10 +60,10 @@ struct ImportedAxis {
     std::string name;
     std::string holds;  // "rates, deg/s"
     double rate_hz = 0.0;
-    std::vector<double> rates_arcsec_s;  // NaN where nothing was measured
-    std::vector<double> phase_arcsec;    // where angles are recorded: those, one more
-    std::vector<std::int8_t> mode;       // of a switched gyro, as many as rates; else empty
-    std::vector<std::string> warnings;   // values that may be no measurements, a line each
+    LongColumn rates_arcsec_s;          // NaN where nothing was measured
+    LongColumn phase_arcsec;            // where angles are recorded: those, one more
+    std::vector<std::int8_t> mode;      // of a switched gyro, as many as rates; else empty
+    std::vector<std::string> warnings;  // values that may be no measurements, a line each
 };
 
 struct ImportedAxes {

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@
 namespace zlg::logs {
 
 // The values rise by the same from row to row, or without exception over many rows: as times do, and rates do not.
-[[nodiscard]] bool rises_as_time(std::span<const double> values);
+[[nodiscard]] bool rises_as_time(const LongColumn& values);
 
 struct Hole {
     std::size_t row = 0;  // the last one before it, from 0
@@ -50,10 +49,10 @@ struct RowTimes {
 
 // More rows are missing than may be filled in (budget.hpp): `column` for messages, `values` of it, `if_none` what to
 // say if none are missing. errors  FormatError: names the largest jump.
-void refuse_many_missing(const std::string& path, const std::string& column, std::span<const double> values,
+void refuse_many_missing(const std::string& path, const std::string& column, const LongColumn& values,
                          const RowTimes& times, const std::string& if_none);
 
 // Puts NaN where rows are missing.
-void fill_holes(std::vector<double>& values, const RowTimes& times);
+void fill_holes(LongColumn& values, const RowTimes& times);
 
 }  // namespace zlg::logs

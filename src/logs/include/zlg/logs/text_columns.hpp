@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <zlg/logs/long_column.hpp>
+
 namespace zlg::logs {
 
 enum class TextSeparator { automatic, blanks, tab, semicolon, comma, bar };
@@ -30,13 +32,13 @@ struct TextLayout {
 };
 
 struct TextColumn {
-    std::int64_t number = 0;     // first is 1
-    std::string name;            // empty: it has none
-    std::vector<double> values;  // NaN where a field is empty, `nan`, `NA`, `null` or `-1.#IND`
-    bool holds_dates = false;    // of times: dates, or times of the day; the values are seconds from the first one on
-    bool is_local = false;       // dates of no said time zone
-    double other_origin = 0.0;   // with the month before the day, where it may stand there
-    double origin = 0.0;         // what was taken off the values, in their unit: of dates the first one, since 1970
+    std::int64_t number = 0;    // first is 1
+    std::string name;           // empty: it has none
+    LongColumn values;          // NaN where a field is empty, `nan`, `NA`, `null` or `-1.#IND`
+    bool holds_dates = false;   // of times: dates, or times of the day; the values are seconds from the first one on
+    bool is_local = false;      // dates of no said time zone
+    double other_origin = 0.0;  // with the month before the day, where it may stand there
+    double origin = 0.0;        // what was taken off the values, in their unit: of dates the first one, since 1970
 };
 
 struct TextTable {

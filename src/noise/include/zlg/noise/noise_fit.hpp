@@ -99,7 +99,7 @@ struct NoiseFitOptions {
 [[nodiscard]] std::vector<double> rates_arcsec_s(const deviations::Series& series);
 
 // The same of such rates, from which the sinusoids that are found are subtracted.
-[[nodiscard]] NoiseFit fit_noise_in_place(std::span<double> rates_arcsec_s, double rate_hz,
+[[nodiscard]] NoiseFit fit_noise_in_place(std::vector<double>& rates_arcsec_s, double rate_hz,
                                           const NoiseFitOptions& options = {});
 
 }  // namespace zlg::noise

@@ -1,0 +1,81 @@
+#include <zlg/logs/long_column.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+#include "file_descriptor.hpp"
+
+namespace zlg::logs {
+
+namespace {
+
+FileDescriptor nameless_file() {
+    const char* folder = std::getenv("TMPDIR");
+    FileDescriptor file;
+    for (int tries = 0; tries < 8 && !file.is_open(); ++tries) {
+        static std::atomic<unsigned> made = 0;
+        const std::string name =
+            fmt::format("{}/zlg-{}-{}", folder == nullptr ? "/tmp" : folder, fmt::ptr(&file), made++);
+        file = FileDescriptor{::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600)};
+        if (file.is_open()) ::unlink(name.c_str());
+    }
+    return file;
+}
+
+}  // namespace
+
+LongColumn& LongColumn::operator=(LongColumn&& other) noexcept {
+    std::swap(most_in_memory_, other.most_in_memory_);
+    std::swap(n_away_, other.n_away_);
+    std::swap(last_, other.last_);
+    std::swap(file_, other.file_);
+    std::swap(read_, other.read_);
+    return *this;
+}
+
+void LongColumn::put_away() {
+    if (!file_) file_ = std::make_shared<FileDescriptor>(nameless_file());
+    const std::size_t n = last_.size() / block_size * block_size * sizeof(double);
+    const std::string_view bytes{reinterpret_cast<const char*>(last_.data()), n};
+    if (!file_->is_open() || write_all(file_->get(), bytes, n_away_ * sizeof(double)).error != 0) {
+        most_in_memory_ = std::numeric_limits<std::size_t>::max();
+        return;
+    }
+    n_away_ += n / sizeof(double);
+    last_.erase(last_.begin(), last_.begin() + static_cast<std::ptrdiff_t>(n / sizeof(double)));
+}
+
+void LongColumn::read(std::size_t at, std::size_t n, double* to) const {
+    for (std::size_t done = 0; done < n * sizeof(double);) {
+        const ssize_t got = ::pread(file_->get(), reinterpret_cast<char*>(to) + done, n * sizeof(double) - done,
+                                    static_cast<off_t>(at * sizeof(double) + done));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) fail_io("read", "the temporary file of a column", got < 0 ? errno : EIO);
+        done += static_cast<std::size_t>(got);
+    }
+}
+
+double LongColumn::fetched(std::size_t k) const {
+    Block& block = read_[k / block_size % 2];
+    block.values.resize(block_size);
+    block.number = std::numeric_limits<std::size_t>::max();  // until it is read
+    read(k / block_size * block_size, block_size, block.values.data());
+    block.number = k / block_size;
+    return block.values[k % block_size];
+}
+
+std::vector<double> LongColumn::vector() const {
+    std::vector<double> all;
+    all.reserve(size() + 1);
+    all.resize(n_away_);
+    if (n_away_ > 0) read(0, n_away_, all.data());
+    all.insert(all.end(), last_.begin(), last_.end());
+    return all;
+}
+
+}  // namespace zlg::logs
