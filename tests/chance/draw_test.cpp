@@ -38,7 +38,7 @@ TEST(Draw, NamesMakeTheirHashes) {
 TEST(Draw, ChoicesAreOfTheArrayAndAllOfThem) {
     Draw draw{3, Cause::test};
     std::array<int, 3> counts{};
-    for (int i = 0; i < 300; ++i) ++counts.at(static_cast<std::size_t>(draw.below(3)));
+    for (int i = 0; i < 300; ++i) ++counts.at(static_cast<std::size_t>(draw.one_of(std::array{0, 1, 2})));
     for (const int count : counts) EXPECT_GT(count, 50);
 }
 
