@@ -7,7 +7,7 @@ from trees import TreeTest
 EXCUSED = ("core/records", "core/methods",
            "core/compensation/switch_window", "core/common/handover", "deviations/variance_law", "config/config", "logs/error", "logs/settings", "logs/raw_layout", "logs/angle_layout",
            "rig/processor", "firmware/port",
-           "firmware/half_period", "chance/causes", "twin/twin_half", "study/axis", "study/design_lines", "paper/paper_item")
+           "firmware/half_period", "twin/twin_half", "study/axis", "study/design_lines", "paper/paper_item")
 
 
 class CheckMirror(TreeTest):

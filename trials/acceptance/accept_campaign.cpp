@@ -10,6 +10,7 @@
 #include <zlg/acceptance/accept.hpp>
 #include <zlg/chance/draw.hpp>
 #include <zlg/config/schema.hpp>
+#include <zlg/core/common/maths.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/study/run.hpp>
 
@@ -53,7 +54,7 @@ void draw_limits(std::vector<Case>& cases, const Draws& draws, std::size_t bad) 
     for (std::size_t k = 0; k < cases.size(); ++k) {
         Case& c = cases[k];
         const double at = k == 0 || k == bad ? place(draws.of(c.name)) : -20.0;
-        c.limit = c.is_factor ? c.truth * std::exp(-c.error * at) : c.truth - c.error * at;
+        c.limit = c.is_factor ? c.truth * core::maths::exp(-c.error * at) : c.truth - c.error * at;
     }
 }
 
@@ -77,7 +78,9 @@ Unit unit_of(const Draws& draws, int k) {
 // 0.
 double settling_of(const Unit& u) {
     const auto off = [&u](double t) {
-        return u.warming * std::exp(-t / u.warming_s) * std::sinh(t / 8.0 / u.warming_s) / (t / 8.0 / u.warming_s);
+        const double before = core::maths::exp(-0.875 * t / u.warming_s),
+                     after = core::maths::exp(-1.125 * t / u.warming_s);
+        return u.warming * (before - after) * 4.0 * u.warming_s / t;
     };
     double t = 1.0;
     while (off(t) > u.walk) t += 1.0;
@@ -88,10 +91,10 @@ std::vector<Case> cases_of(const Unit& u) {
     // White noise of a stage, and what a walk over the table differs by from its mean.
     const double n = n_samples, table_s = 1.0 * stage_s * n_stages, to_ppm = 1e6 / (3600.0 * largest_rate);
     const double noise = std::sqrt(u.walk * u.walk / stage_s + u.rate_walk * u.rate_walk * table_s / 6.0);
-    const double bend = std::hypot(u.bend_ppm, to_ppm * noise);
+    const double bend = core::maths::hypot(u.bend_ppm, to_ppm * noise);
     const double scale = bend * std::sqrt(3.0 * (n_stages - 1.0) / (n_stages + 1.0) / n_stages);
     const double mean = std::sqrt(u.walk * u.walk / n + u.rate_walk * u.rate_walk * n / 3.0);
-    const double slope = std::hypot(0.5 * u.walk / std::sqrt(n), 0.03 * u.rate_walk * std::sqrt(n));
+    const double slope = core::maths::hypot(0.5 * u.walk / std::sqrt(n), 0.03 * u.rate_walk * std::sqrt(n));
     std::vector<Case> cases{{"bias.deg_h", u.bias, mean, mean, false},
                             {"angle_random_walk.deg_sqrt_h", u.walk / 60.0, 0.015, 0.0, true},
                             {"scale_factor.ppm", u.scale_ppm, scale, scale, false},
@@ -158,7 +161,7 @@ public:
             [&](std::size_t k) { return 3600.0 * rates[k / stage_s] + bends[k / stage_s]; });
         by.rate_walk = 0.0;  // of this definition slow noise is no error
         log("warm_up", "", n_samples,
-            [&](std::size_t k) { return u.warming * std::exp(-(static_cast<double>(k) + 0.5) / u.warming_s); });
+            [&](std::size_t k) { return u.warming * core::maths::exp(-(static_cast<double>(k) + 0.5) / u.warming_s); });
         by = u;
         log("temperature", "temperature_c = 2\n", n_samples,
             [&](std::size_t k) { return u.per_c * (temperature_at(k) - 30.0); });
