@@ -1,33 +1,12 @@
 #include <zlg/logs/long_column.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <string_view>
 #include <utility>
 
-#include "file_descriptor.hpp"
+#include "nameless_file.hpp"
 
 namespace zlg::logs {
-
-namespace {
-
-FileDescriptor nameless_file() {
-    const char* folder = std::getenv("TMPDIR");
-    FileDescriptor file;
-    for (int tries = 0; tries < 8 && !file.is_open(); ++tries) {
-        static std::atomic<unsigned> made = 0;
-        const std::string name =
-            fmt::format("{}/zlg-{}-{}", folder == nullptr ? "/tmp" : folder, fmt::ptr(&file), made++);
-        file = FileDescriptor{::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600)};
-        if (file.is_open()) ::unlink(name.c_str());
-    }
-    return file;
-}
-
-}  // namespace
 
 LongColumn& LongColumn::operator=(LongColumn&& other) noexcept {
     std::swap(most_in_memory_, other.most_in_memory_);
