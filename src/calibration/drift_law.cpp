@@ -198,14 +198,15 @@ std::string why_no_bend(const Record& record, const IncrementFit& straight) {
         record.span_s, 1e3 * slope, 1e3 * sigma(straight, 2));
 }
 
-// Om0 and Om_nm where A and tau are not known: the mean over all warmings from two segments, for a quicker one is
+// Om0 and Om_nm where A and tau are not known: the mean over all warmings from two segments on, for a quicker one is
 // over before both modes were seen, to 10 times the span, each weighted by how well it fits, with the spread between
 // them. The prior of log tau is the reference prior beside an unknown A (Bernardo and Smith, Bayesian Theory, 1994):
 // the speed at which the direction of the law, without the constants, turns. Its square is the information of log tau
 // at A = 1 times the variance of A at a known tau. So times that look alike, as all slow warmings do, count once.
 IncrementFit mean_over_times(const Record& record, double walk) {
     constexpr int n_times = 24;
-    const double low = std::log(std::min(2.0 * record.segment_s, record.span_s / 20.0));
+    const double first_s = std::ranges::min(record.pieces, {}, &Piece::start_s).start_s;
+    const double low = std::log(first_s + std::min(2.0 * record.segment_s, record.span_s / 20.0));
     const double high = std::log(record.span_s * 10.0);
     std::vector<IncrementFit> fits;
     std::vector<double> weights;

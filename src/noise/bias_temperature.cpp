@@ -118,13 +118,18 @@ Fit fit_of(const Stretches& s, Eigen::Index order) {
         const Eigen::VectorXd value = normal.solve(a.transpose() * y);
         const double squares = (y - a * value).squaredNorm();
         const Eigen::MatrixXd l = root.matrixL(), m = normal.matrixL();
-        objectives.push_back(2.0 * (l.diagonal().array().log().sum() + m.diagonal().array().log().sum()) +
-                             fit.dof * std::log(std::max(squares, 1e-300)));
+        const double objective = 2.0 * (l.diagonal().array().log().sum() + m.diagonal().array().log().sum()) +
+                                 fit.dof * std::log(std::max(squares, 1e-300));
+        // Laws that are nearly the same leave a pivot of rounding.
+        if (!std::isfinite(objective)) continue;
+        objectives.push_back(objective);
         const Eigen::MatrixXd inverse = normal.solve(Eigen::MatrixXd::Identity(laws.cols(), laws.cols()));
         fits.emplace_back();
         fits.back().value(columns) = value;
         fits.back().sigma(columns) = (inverse.diagonal() * (squares / fit.dof)).cwiseSqrt();
     }
+    if (fits.empty()) fit.sigma.setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (fits.empty()) return fit;
     const double least = *std::ranges::min_element(objectives);
     double all = 0.0;
     for (double& each : objectives) all += each = std::exp(0.5 * (least - each));

@@ -49,8 +49,7 @@ void warn_of_absent(const ConvertOptions& options, const config::Settings& setti
             complain(fmt::format("warning: {}: does not say {}, nor does the copy", options.file, fact));
 }
 
-// The rest of a raw log, row by row, into any copy of it.
-// Every row; how many there were.
+// Every row, into any copy of it; how many there were.
 template <class Row, class Reader, class Write>
 std::int64_t copy_rows(Reader& log, const Write& write) {
     const Interruptible interruptible;
@@ -99,7 +98,6 @@ double logged_tick_s(const logs::AngleHeader& header, const ConvertOptions& opti
     return load_log_config(options, header.settings, options.file, LogFacts::none).gyro.tick_s;
 }
 
-// The same of an angle log.
 std::int64_t convert_angles(const ConvertOptions& options, std::optional<logs::LogFormat> format) {
     logs::AngleReader angles{options.file};
     const logs::AngleHeader& header = angles.header();

@@ -65,8 +65,8 @@ void weigh_beams(const MonitorLimits& c, LightMonitorState& s, const LightMonito
     s.n_side = side == s.side ? s.n_side + (s.n_side < balance_debounce) : 1;
     s.side = static_cast<std::int8_t>(side);
     if (in.settled && s.n_side >= balance_debounce) s.is_unbalanced = side != 0;
-    if (side != 0) {
-        if (in.settled && side != s.last_side) s.is_unbalanced = false;
+    if (in.settled && side != 0) {
+        if (side == -s.last_side) s.is_unbalanced = false;
         s.last_side = static_cast<std::int8_t>(side);
     }
     // Light noise is in the mean square, sigma^2, but does not weaken the bias; (2 sigma)^2 leaves a margin.

@@ -270,10 +270,6 @@ std::string stretches(const TextColumn& column, const Steps& steps, const Rails&
         n_stretches == 1 ? std::string{} : fmt::format("; {} such stretches hold {} rows", n_stretches, n_rows));
 }
 
-}  // namespace
-
-namespace {
-
 template <class Values>
 std::string spikes_of(const Values& values, const std::string& what) {
     constexpr double far = 100.0;
