@@ -1,18 +1,6 @@
 // zlg-mpi: `sweep` of zlg on all the processes that mpirun or srun has started.
 
-#include <cstdint>
-#include <deque>
-#include <exception>
-#include <optional>
-#include <stdexcept>
-#include <string>
-
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
-
-#include <zlg/sweep/gyros.hpp>
-#include <zlg/sweep/motion_files.hpp>
-#include <zlg/sweep/row_text.hpp>
 
 #include "distributor.hpp"
 #include "messages.hpp"
@@ -21,99 +9,11 @@
 #include "src/interrupt.hpp"
 #include "src/program.hpp"
 #include "src/verbs.hpp"
+#include "worker.hpp"
 
 namespace {
 
 using namespace zlg;
-using mpi::Tag;
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-// Its first line names the version of the program, as that of a checkpoint does: another one could give other rows.
-sweep::Description same_program(const std::string& text) {
-    sweep::Description description = sweep::parse(text, "rank 0");
-    const std::string here = first_line(to_toml(description));
-    if (here != first_line(text))
-        throw std::runtime_error(
-            fmt::format("rank 0 is `{}`, this machine has `{}`; allowed is one version", first_line(text), here));
-    return description;
-}
-
-// A rank above 0: it runs the gyros that rank 0 sends, until rank 0 sends the end.
-class Worker {
-public:
-    void work() {
-        interruptible_.will_finish();
-        for (;;) {
-            read_messages();
-            if (is_ended_) return;
-            if (interruptible_.is_noted()) stop(Tag::stopped);
-            if (waiting_.empty())
-                mpi::sleep_a_moment();
-            else
-                run_next();
-        }
-    }
-
-private:
-    void read_messages() {
-        while (const auto message = mpi::received()) obey(*message);
-    }
-
-    void obey(const mpi::Message& message) {
-        switch (message.tag) {
-            case Tag::description:
-                try {
-                    gyros_.emplace(sweep::with_motion_checksums(same_program(message.text)));
-                } catch (const std::exception& error) {
-                    stop(Tag::failed, error.what());
-                }
-                break;
-            case Tag::gyro:
-                if (!is_stopped_) waiting_.push_back(std::stoll(message.text));
-                break;
-            case Tag::stop:
-                stop(Tag::stopped);
-                break;
-            case Tag::end:
-                is_ended_ = true;
-                break;
-            default:
-                break;
-        }
-    }
-
-    // Messages are read meanwhile, so that a run ends soon that rank 0 stops.
-    bool is_stopped() {
-        read_messages();
-        return is_stopped_ || is_ended_ || interruptible_.is_noted();
-    }
-
-    void run_next() {
-        const std::int64_t gyro = waiting_.front();
-        waiting_.pop_front();
-        try {
-            mpi::send(0, Tag::row, sweep::text_of(gyros_->run(gyro, [this] { return is_stopped(); })));
-        } catch (const sweep::Stopped&) {
-            // Said by `stop`, or after it was noted.
-        } catch (const std::exception& error) {
-            stop(Tag::failed, error.what());
-        }
-    }
-
-    // Rank 0 counts on one such message of each rank.
-    void stop(Tag why, const std::string& text = {}) {
-        waiting_.clear();
-        if (!is_stopped_) mpi::send(0, why, text);
-        is_stopped_ = true;
-    }
-
-    cli::Interruptible interruptible_;
-    std::optional<sweep::Gyros> gyros_;
-    std::deque<std::int64_t> waiting_;
-    bool is_stopped_ = false;
-    bool is_ended_ = false;
-};
 
 // The one process that reads the command line, writes and speaks.
 int lead(int argc, char** argv) {
@@ -133,7 +33,7 @@ int lead(int argc, char** argv) {
 
 int follow() {
     cli::leave_errors_to_another();
-    Worker{}.work();
+    mpi::Worker{}.work();
     return cli::good;
 }
 
