@@ -65,7 +65,7 @@ Unit unit_of(const Draws& draws, int k) {
     u.filtered = k % 3 == 0;
     u.bias = 50.0 * u.walk * draws.of("bias").within(-1.0, 1.0);
     u.scale_ppm = draws.of("scale").within(-500.0, 500.0);
-    u.bend_ppm = u.walk * draws.of("bend").within_log(10.0, 100.0);
+    u.bend_ppm = u.walk * draws.of("bend").within_log(1.0, 100.0);
     u.warming = 10.0 * u.walk;
     u.warming_s = draws.of("warming").within(150.0, 900.0);
     u.per_c = u.walk * draws.of("temperature").within(-1.0, 1.0);

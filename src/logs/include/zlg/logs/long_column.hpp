@@ -1,6 +1,7 @@
 #pragma once
 // Numbers of a column in their order, as many as there are: the last ones in memory, those before them in a file
-// without a name (in TMPDIR, or else /tmp), or in memory too where none can be written.
+// without a name (in TMPDIR, or else /tmp), or in memory too where none can be written. One thread at a time may look
+// at one: what was read last is kept.
 
 #include <array>
 #include <cstddef>
