@@ -127,8 +127,8 @@ def verdict_of(mutant, module, prebuilt, own_tests_alone=False):
         programs = {name: prebuilt.programs[name] for name in asked if name in prebuilt.programs}
         if mutated.suffix == ".hpp":
             sources = [copied(source, folder) for source in prebuilt.users(mutant.path)]
-        if "include" in mutated.parts:
-            # A public header is compiled into its tests too: with them alone most is decided.
+        if mutated.suffix == ".hpp" and tests_of(module):
+            # A header is compiled into its tests too: with them alone most is decided.
             programs[module] = folder / module
             if not build_tests(folder, tests_of(module), programs[module], prebuilt):
                 return "not compiled"
