@@ -162,6 +162,11 @@ bool mentions_time(std::string_view column_name) {
     return has_word(column_name, " time timestamp stamp zeit tow epoch unix utc elapsed micros millis mjd ");
 }
 
+bool names_statistic(std::string_view column_name) {
+    return has_word(column_name,
+                    " sigma std stddev stdev sd rms var bias offset err unc uncertainty range limit min max ");
+}
+
 bool names_counter(std::string_view column_name) {
     return has_word(column_name,
                     " n nr no sample samples index idx seq frame count counter packet cnt sequence iteration "
