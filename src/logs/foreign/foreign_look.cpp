@@ -201,7 +201,8 @@ void check_axes(ForeignLook& look, std::int64_t times) {
     if (!unit && !is_open) {
         const std::string of =
             m.axes().empty() ? "" : "of " + described(column_named(look.table, m.axes().front())) + "; ";
-        look.missing.push_back(fmt::format("unit=... ({}{})", of, allowed_units()));
+        look.missing.push_back(
+            fmt::format("unit=... ({}{}; of counts and Hz scale_arcsec=... too)", of, allowed_units()));
     }
     if (!m.has("scale") && !(unit && unit->of_counts))
         if (const std::string in = scale_in_words(look); !in.empty())
@@ -209,6 +210,12 @@ void check_axes(ForeignLook& look, std::int64_t times) {
                 fmt::format("scale=... (what a number is multiplied by to be in its unit; {}), or "
                             "scale=1 where it stands for itself",
                             in));
+    if (!m.has("scale") && m.has("unit") && !unit->of_counts && !m.axes().empty() &&
+        all_of_known(column_named(look.table, m.axes().front()), is_whole))
+        look.said.push_back(
+            fmt::format("its numbers are whole, and read as so many {}; --map scale=... if they are "
+                        "in another one",
+                        unit->name));
     if (m.has("table_rate") && !m.has("table_unit") &&
         !unit_in_name(column_named(look.table, m.text("table_rate")).name))
         look.missing.push_back("table_unit=... (of the rate table's rate)");

@@ -206,7 +206,15 @@ std::vector<std::string> unused_times(const ForeignTable& table, const Mapping& 
 }
 
 std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) {
-    if (mapping.has("rate_hz") || !open_times(table, mapping).empty()) return {};
+    if (mapping.has("rate_hz")) return {};
+    if (const auto open = time_columns(table, mapping); open.size() > 1) {
+        const auto says_unit = [&](std::int64_t n) {
+            const ForeignColumn& column = column_at(table, n);
+            return column.holds_dates || unit_of(column.name);
+        };
+        if (mapping.has("time_unit") || std::ranges::all_of(open, says_unit)) return {};
+        return "time_unit=s, ms, us or ns (of these times)";
+    }
     const std::int64_t number = time_column(table, mapping);
     if (number == 0) return "rate_hz=... (rows a second; no column of times was recognised, or time=COLUMN)";
     const ForeignColumn& column = column_at(table, number);
@@ -221,9 +229,10 @@ std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) 
         return fmt::format("rate_hz=... (rows a second; {} merely numbers them), or time_unit=s, ms, us, ns",
                            described(column));
     const auto found = row_times(times_in(column), table.path, false);
-    if (!found) return fmt::format("time_unit=s, ms, us or ns (of {})", described(column));
-    return fmt::format("time_unit=s (then {:.6g} Hz), ms ({:.6g} Hz), us or ns, of {}", 1.0 / found->step,
-                       1e3 / found->step, described(column));
+    constexpr const char* else_rate = "or rate_hz=... (rows a second), with time=none where it holds no times";
+    if (!found) return fmt::format("time_unit=s, ms, us or ns (of {}), {}", described(column), else_rate);
+    return fmt::format("time_unit=s (then {:.6g} Hz), ms ({:.6g} Hz), us or ns, of {}, {}", 1.0 / found->step,
+                       1e3 / found->step, described(column), else_rate);
 }
 
 }  // namespace zlg::logs

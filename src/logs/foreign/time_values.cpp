@@ -105,6 +105,21 @@ void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const s
         path, described(times), times.values[row], times.values[row + 1]));
 }
 
+void leave_out(TextTable& read, const std::vector<std::size_t>& rows) {
+    const auto thin = [&rows](LongColumn& values) {
+        std::size_t next = 0;
+        LongColumn thinned;
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (next < rows.size() && rows[next] == k)
+                ++next;
+            else
+                thinned.push_back(values[k]);
+        values = std::move(thinned);
+    };
+    thin(read.times->values);
+    for (TextColumn& column : read.columns) thin(column.values);
+}
+
 std::vector<std::string> take_once(TextTable& read, const std::string& path) {
     if (!read.times || read.times->values.size() < 4) return {};
     const LongColumn& t = read.times->values;
@@ -128,18 +143,7 @@ std::vector<std::string> take_once(TextTable& read, const std::string& path) {
             "{}, {}, the first in row {}, with other values; allowed are messages that stand once, or --map time=none "
             "with rate_hz",
             path, what, again.front() + 1));
-    const auto thin = [&again](LongColumn& values) {
-        std::size_t next = 0;
-        LongColumn thinned;
-        for (std::size_t k = 0; k < values.size(); ++k)
-            if (next < again.size() && again[next] == k)
-                ++next;
-            else
-                thinned.push_back(values[k]);
-        values = std::move(thinned);
-    };
-    thin(read.times->values);
-    for (TextColumn& column : read.columns) thin(column.values);
+    leave_out(read, again);
     return {what + ", with its values, and are left out"};
 }
 
