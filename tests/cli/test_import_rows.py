@@ -46,6 +46,36 @@ class Rows(Foreign):
         path = self.write("s.csv", "utc,gz\n" + "".join(f"{t:.1f},{w:.9f}\n" for t, w in zip(seconds, self.w)))
         self.angles(path, *self.SAID, rows=self.N + 400)
 
+    def test_stamps_that_are_rounded_to_milliseconds(self):
+        k = numpy.arange(self.N)
+        there = numpy.delete(k, 445)
+        path = self.stamped(there, numpy.floor(there / 0.128))
+        log = self.angles(path, "--map", "rate_hz=128", rows=self.N)
+        self.assertEqual([row for row in k if log.has(row, "invalid")], [445])
+        there = numpy.delete(k, [100, 300, 333, 700, 888])
+        for rows, stamps in ((there, numpy.floor(there / 0.952)), (k, numpy.floor(k / 0.99))):
+            path = self.stamped(rows, stamps)
+            self.refuse(3, "import", path, "--out", self.folder / "o.csv", says=("are missing; allowed is one of both: --map rate_hz=",))
+        self.angles(path, "--map", "rate_hz=990", rows=self.N)
+        there = numpy.sort(self.rng.permutation(self.N + 40)[:self.N])  # by chance they are missing
+        self.assertEqual(self.mean(self.stamped(k, there))[1]["known"], self.N)
+
+    def stamped(self, rows, stamps):
+        return self.write("t.csv", "t_ms,gyro [rad/s]\n" + "".join(f"{t:.0f},{self.w[k]:.9f}\n" for k, t in zip(rows, stamps)))
+
+    def test_a_counter_beside_times_that_are_left_out_is_named(self):
+        rows = "".join(f"{20 + k % 3},{k % 256},{w:.9f}\n" for k, w in enumerate(self.w) if k != 500)
+        result = run("import", self.write("c.csv", "time,cnt,gyro [rad/s]\n" + rows), "--map", "time=none", "--map", "rate_hz=100", "--map", "axis=3",
+                     "--out", self.folder / "o.csv")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("'cnt': rises as times and counters do, and is not used; --map time=2", result.stderr)
+
+    def test_labview_names_a_column_that_rows_leave_out(self):
+        rows = "".join(f"{k / 100:.2f}\t{w:.17g}\t2.5\n" for k, w in enumerate(self.w))
+        path = self.write("a.lvm", "LabVIEW Measurement\t\n***End_of_Header***\t\nX_Value\tRate\tMonitor\tComment\n" + rows)
+        log = self.angles(path, *self.SAID, "--map", "axis=Rate", "--map", "time=X_Value", rows=self.N)
+        self.assert_turns_of(log, range(self.N))
+
     def test_sentences_that_begin_as_comments_do(self):
         rows = "".join(f"#INSATTA,COM1,0,{309000 + k / 100:.2f};7,{w:.17g},0*0badcafe\n" for k, w in enumerate(self.w))
         log = self.angles(self.write("a.asc", rows), *self.SAID, "--map", "axis=6", "--map", "time=4", rows=self.N)

@@ -151,7 +151,9 @@ struct Look {
 std::vector<std::string> words_of(const std::string& line, const Dialect& dialect) {
     std::vector<Field> fields;
     split_fields(line, dialect.separator, fields);
-    if (fields.size() == dialect.n_fields + 1 && fields.back().text.empty()) fields.pop_back();
+    // LabVIEW names a column of comments, which its rows leave out.
+    if (fields.size() == dialect.n_fields + 1 && (fields.back().text.empty() || fields.back().text == "Comment"))
+        fields.pop_back();
     if (fields.size() + 1 == dialect.n_fields && dialect.ends_empty) fields.emplace_back();
     if (fields.size() != dialect.n_fields) return {};
     std::vector<std::string> words;

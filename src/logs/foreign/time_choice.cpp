@@ -174,18 +174,20 @@ std::string open_times(const ForeignTable& table, const Mapping& mapping) {
 }
 
 std::vector<std::string> unused_times(const ForeignTable& table, const Mapping& mapping) {
-    if (mapping.has("time") || mapping.has("half")) return {};
+    const bool is_none = mapping.text("time") == "none";
+    if ((mapping.has("time") && !is_none) || mapping.has("half")) return {};
     const std::int64_t times = time_column(table, mapping);
     std::vector<std::string> notes;
     for (const ForeignColumn& column : table.columns) {
         if (column.number == times || column.values.size() < 2 || is_said(column, table, mapping)) continue;
         const bool is_named = names_time(column.name);
-        if (times == 0 && is_named && (column.is_number || !column.word.empty()))
+        if (times == 0 && is_named && !is_none && (column.is_number || !column.word.empty()))
             throw MappingError(
                 fmt::format("{}, {}: is named as times are, and does not rise; --map time=none leaves it out",
                             table.path, described(column)));
         // Another column of times was held against the first where both are named.
-        const bool holds_words = times == 0 && (is_named || mentions_time(column.name)) && !column.is_number;
+        const bool holds_words =
+            times == 0 && !is_none && (is_named || mentions_time(column.name)) && !column.is_number;
         const bool is_left = times == 0 || merely_numbers(column_at(table, times));
         // A date (datum) beside the time of the day.
         if (times != 0 && !column.is_number && text::lower_case(column.name).starts_with("dat")) {
