@@ -45,6 +45,8 @@ class TheAxis(Foreign):
             name = name.replace(" ", "_")
             self.asked(self.table(f"t_s {name} gyro", self.t, other, self.w), says=(f"'{name}', 'gyro'",))
             self.mean(self.table(f"t_s {name}", self.t, other))
+        for name in ("gyro[deg/min]", "rate_deg_min"):
+            self.mean(self.table(f"t_s {name} temperature", self.t, self.w, other))
 
     def test_exponents_of_fortran(self):
         rows = [f"{x:.8E}" for x in map(float, self.w)]

@@ -167,8 +167,7 @@ bool mentions_time(std::string_view column_name) {
 }
 
 bool names_statistic(std::string_view column_name) {
-    return has_word(column_name,
-                    " sigma std stddev stdev sd rms var bias offset err unc uncertainty range limit min max ");
+    return has_word(column_name, " sigma std stddev stdev sd rms var bias offset err unc uncertainty range limit ");
 }
 
 bool names_counter(std::string_view column_name) {
