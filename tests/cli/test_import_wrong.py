@@ -18,7 +18,7 @@ class SilentlyWrong(Foreign):
     def test_attributes_of_hdf5_that_scale(self):
         path = self.folder / "scaled.h5"
         said = ["--map", "rate_hz=100", "--map", "axis=w", "--map", "unit=deg/h"]
-        for name, harmless, harmful in (("scale_factor", 1, 0.01), ("Gain", 1.0, 2), ("LSB", 1, 1e-3), ("add_offset", 0.0, 5), ("_FillValue", 1e20, 3.0)):
+        for name, harmless, harmful in (("scale_factor", 1, 0.01), ("Gain", 1.0, 2), ("LSB", 1, 1e-3), ("conversion", 1.0, 1e-3), ("add_offset", 0.0, 5), ("_FillValue", 1e20, 3.0)):
             with self.subTest(name):
                 for value in (harmless, harmful):
                     with h5py.File(path, "w") as file:

@@ -66,8 +66,17 @@ bool cut_field(std::string_view& rest, char separator, Field& field) {
 }
 
 bool parses(std::string_view text, double& value) {
-    const auto [end, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = fast_float::from_chars(text.data(), last, value);
+    if (error == std::errc{} && end == last) return std::isfinite(value);
+    // Fortran's exponent of a double: 1.5D-03.
+    std::array<char, 40> copy;
+    const std::size_t mark = text.find('D');
+    if (mark == std::string_view::npos || mark + 2 >= text.size() || text.size() > copy.size()) return false;
+    if ((text[mark + 1] != '+' && text[mark + 1] != '-') || !is_digit(text[mark + 2])) return false;
+    std::copy(text.begin(), text.end(), copy.begin());
+    copy[mark] = 'E';
+    return parses({copy.data(), text.size()}, value);
 }
 
 // 1 to 3 digits, then groups of three behind the mark.

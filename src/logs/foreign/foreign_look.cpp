@@ -14,6 +14,7 @@
 
 #include "mixed_rows.hpp"
 #include "row_clock.hpp"
+#include "text_table/time_names.hpp"
 #include "units.hpp"
 
 namespace zlg::logs {
@@ -32,19 +33,26 @@ bool is_constant(const ForeignColumn& column) {
     return std::ranges::adjacent_find(column.values, std::ranges::not_equal_to{}) == column.values.end();
 }
 
+bool is_whole(double v) { return v == std::floor(v); }
+
+// Of two values, as a sign or a switch has them.
+bool is_state(const ForeignColumn& column) {
+    return column.is_number && (all_of_known(column, [](double v) { return v == 1.0 || v == -1.0; }) ||
+                                all_of_known(column, [](double v) { return v == 0.0 || v == 1.0; }));
+}
+
 std::string may_be(const ForeignColumn& column, std::int64_t times) {
     if (column.number == times) return column.holds_dates ? "the times of the rows, as dates" : "the times of the rows";
     if (column.holds_dates) return "dates";
     if (!column.is_number) return "words, not read";
     if (const auto unit = unit_in_name(column.name))
         return fmt::format("{}, {}", unit->kind == UnitKind::rate ? "a rate" : "an angle or increments", unit->name);
-    const auto whole = [](double v) { return v == std::floor(v); };
-    if (all_of_known(column, [](double v) { return v == 1.0 || v == -1.0; }) && !is_constant(column))
-        return "bias_sign or mode";
-    if (all_of_known(column, [](double v) { return v == 0.0 || v == 1.0; })) return "loop_closed, valid or lit";
+    const bool is_switch = all_of_known(column, [](double v) { return v >= 0.0; });
+    if (is_state(column) && (is_switch || !is_constant(column)))
+        return is_switch ? "loop_closed, valid or lit" : "bias_sign or mode";
     if (is_constant(column)) return "a constant";
     if (rises_as_time(column.values)) return "rises steadily: an angle, a number of rows or times; no rate";
-    return all_of_known(column, whole) ? "whole numbers, as counts are" : "numbers";
+    return all_of_known(column, is_whole) ? "whole numbers, as counts are" : "numbers";
 }
 
 // Columns of a raw log that have our names.
@@ -79,16 +87,24 @@ void check_raw(ForeignLook& look) {
 // Returns whether its name says its unit, or that of each that it may be.
 bool take_axis(ForeignLook& look, std::int64_t times) {
     std::vector<const ForeignColumn*> numbers, rates;
+    bool may_be_another = false;  // an angle without a name, or what nobody can read
     for (const ForeignColumn& column : look.table.columns) {
         const bool may_be_read = column.is_number || !column.word.empty();
-        if (!may_be_read || column.is_part || column.number == times || is_constant(column)) continue;
-        if (rises_as_time(column.values) && look.mapping.text("holds") != "angle") continue;
+        if (column.is_part || column.number == times || is_constant(column) || is_state(column)) continue;
+        const bool is_unread = !may_be_read && !column.holds_dates && column.words.size() >= most_words;
+        const bool only_rises = rises_as_time(column.values) && look.mapping.text("holds") != "angle" &&
+                                (!unit_in_name(column.name) || mentions_time(column.name));
+        const bool may_be_angle = only_rises && !all_of_known(column, is_whole) && !mentions_time(column.name);
+        may_be_another = may_be_another || is_unread || may_be_angle;
+        if (!may_be_read || only_rises) continue;
         numbers.push_back(&column);
         if (!names_rate(column.name)) continue;
         refuse_words(column);
         rates.push_back(&column);
     }
-    const ForeignColumn* only = rates.size() == 1 ? rates.front() : numbers.size() == 1 ? numbers.front() : nullptr;
+    const ForeignColumn* only = nullptr;
+    if (rates.size() == 1 && (numbers.size() == 1 || !names_statistic(rates.front()->name))) only = rates.front();
+    if (rates.empty() && numbers.size() == 1 && !may_be_another) only = numbers.front();
     if (only != nullptr) {
         refuse_words(*only);
         look.mapping.set_axes({fmt::format("{}", only->number)});
@@ -96,14 +112,14 @@ bool take_axis(ForeignLook& look, std::int64_t times) {
         return true;
     }
     std::string choice;
-    for (const ForeignColumn* column : rates.empty() ? numbers : rates)
+    for (const ForeignColumn* column : rates.size() < 2 ? numbers : rates)
         if (choice.size() < 200)
             choice += fmt::format("{}{}", choice.empty() ? "" : ", ",
                                   column->name.empty() ? fmt::format("{}", column->number)
                                                        : fmt::format("'{}'", text::excerpt(column->name, 40, ' ')));
     look.missing.push_back(fmt::format("axis=COLUMN{}{}", choice.empty() ? "" : ", of " + choice,
                                        rates.empty() ? " (or counts=COLUMN of a raw log)" : ""));
-    return !rates.empty();
+    return rates.size() > 1;
 }
 
 // What was said goes before the name; of what the file says all must agree.
@@ -152,7 +168,7 @@ std::string scale_in_words(const ForeignLook& look) {
     const auto axes = look.mapping.axes();
     if (axes.empty()) return {};
     const ForeignColumn& column = column_named(look.table, axes.front());
-    if (!all_of_known(column, [](double v) { return v == std::floor(v); })) return {};
+    if (!all_of_known(column, is_whole)) return {};
     if (text::lower_case(column.name).find("lsb") != std::string::npos)
         return fmt::format("'{}' says LSB", text::excerpt(column.name, 60, ' '));
     for (const std::string& line : look.table.head)
@@ -185,7 +201,8 @@ void check_axes(ForeignLook& look, std::int64_t times) {
     if (!unit && !is_open) {
         const std::string of =
             m.axes().empty() ? "" : "of " + described(column_named(look.table, m.axes().front())) + "; ";
-        look.missing.push_back(fmt::format("unit=... ({}{})", of, allowed_units()));
+        look.missing.push_back(
+            fmt::format("unit=... ({}{}; of counts and Hz scale_arcsec=... too)", of, allowed_units()));
     }
     if (!m.has("scale") && !(unit && unit->of_counts))
         if (const std::string in = scale_in_words(look); !in.empty())
@@ -193,6 +210,12 @@ void check_axes(ForeignLook& look, std::int64_t times) {
                 fmt::format("scale=... (what a number is multiplied by to be in its unit; {}), or "
                             "scale=1 where it stands for itself",
                             in));
+    if (!m.has("scale") && m.has("unit") && !unit->of_counts && !m.axes().empty() &&
+        all_of_known(column_named(look.table, m.axes().front()), is_whole))
+        look.said.push_back(
+            fmt::format("its numbers are whole, and read as so many {}; --map scale=... if they are "
+                        "in another one",
+                        unit->name));
     if (m.has("table_rate") && !m.has("table_unit") &&
         !unit_in_name(column_named(look.table, m.text("table_rate")).name))
         look.missing.push_back("table_unit=... (of the rate table's rate)");

@@ -54,8 +54,9 @@ struct Attributes {
 };
 
 herr_t take_attribute(hid_t set, const char* name, const H5A_info_t*, void* client) noexcept try {
-    constexpr std::array<std::string_view, 8> factors{"scale_factor", "scale",  "scaling", "gain",
-                                                      "lsb",          "factor", "slope",   "multiplier"};
+    constexpr std::array<std::string_view, 11> factors{"scale_factor", "scale",       "scaling",    "gain",
+                                                       "lsb",          "factor",      "slope",      "multiplier",
+                                                       "conversion",   "sensitivity", "scalefactor"};
     constexpr std::array<std::string_view, 3> offsets{"add_offset", "offset", "intercept"};
     constexpr std::array<std::string_view, 2> fills{"_fillvalue", "missing_value"};
     Attributes& found = *static_cast<Attributes*>(client);

@@ -7,6 +7,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/imported.hpp>
 
+#include "mixed_rows.hpp"
 #include "raw_sources.hpp"
 #include "row_clock.hpp"
 #include "suspect_values.hpp"
@@ -119,6 +120,10 @@ ImportedAxes imported_axes(const ForeignLook& look) {
     TextTable read = look.table.read(wanted, times);
     take_out_missing(look.mapping, read);
     ImportedAxes imported{.axes = {}, .table_rates_arcsec_s = {}, .temperature_c = {}, .notes = settle_times(read)};
+    if (read.times && holds_rows_of_others(look))
+        imported.notes.push_back(
+            fmt::format("{} rows without a value of the axis hold those of others, and are left out",
+                        take_out_empty_rows(read, n_axes)));
     std::vector<std::string> warnings = take_once(read, look.table.path);
     const RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
     read.times.reset();

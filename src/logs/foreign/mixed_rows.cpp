@@ -106,7 +106,7 @@ bool differ(const ForeignColumn& column, const std::vector<std::int64_t>& kinds)
 
 }  // namespace
 
-void refuse_mixed_rows(const ForeignLook& look) {
+void refuse_mixed_rows(ForeignLook& look) {
     constexpr std::size_t seldom = 50, fewest = 8;  // rows of a kind; turns of each
     if (look.mapping.has("sensor")) return;
     for (const ForeignColumn& column : look.table.columns) {
@@ -120,6 +120,11 @@ void refuse_mixed_rows(const ForeignLook& look) {
                 return &other != &column && other.is_number && !other.is_part && !rises_as_time(other.values) &&
                        kinds_of(other).empty() && differ(other, kinds);
             });
+        if (!is_mixed && is_often && !column.is_number && take_turns(runs))
+            look.said.push_back(
+                fmt::format("{}: {} and others stand by turns, and are read as rows of one sensor; --map sensor={} "
+                            "takes those of one",
+                            described(column), column.first, column.first));
         if (!is_mixed) continue;
         const auto other = std::ranges::find_if(kinds, [&](std::int64_t kind) { return kind != kinds.front(); });
         const auto at = static_cast<std::size_t>(other - kinds.begin());
@@ -132,6 +137,37 @@ void refuse_mixed_rows(const ForeignLook& look) {
             look.table.path, described(column), column.first, second,
             column.is_number ? std::string{"parted before"} : fmt::format("--map sensor={}", column.first)));
     }
+}
+
+bool holds_rows_of_others(const ForeignLook& look) {
+    std::vector<bool> is_empty;
+    for (const std::string& axis : look.mapping.axes()) {
+        const std::vector<double>& values = column_named(look.table, axis).values;
+        is_empty.resize(values.size(), true);
+        for (std::size_t k = 0; k < values.size(); ++k) is_empty[k] = is_empty[k] && std::isnan(values[k]);
+    }
+    if (std::ranges::count(is_empty, false) == 0) return false;
+    std::vector<bool> is_of_another(is_empty.size());
+    for (const ForeignColumn& column : look.table.columns) {
+        const auto is_here = [&](std::size_t k) { return k < column.values.size() && !std::isnan(column.values[k]); };
+        bool is_other = true;
+        for (std::size_t k = 0; k < is_empty.size(); ++k) is_other = is_other && (is_empty[k] || !is_here(k));
+        for (std::size_t k = 0; k < is_empty.size(); ++k)
+            is_of_another[k] = is_of_another[k] || (is_other && is_here(k));
+    }
+    return 2 * std::ranges::count(is_of_another, true) > std::ranges::count(is_empty, true);
+}
+
+std::size_t take_out_empty_rows(TextTable& read, std::size_t n_axes) {
+    const auto is_empty = [&](std::size_t k) {
+        return std::all_of(read.columns.begin(), read.columns.begin() + static_cast<std::ptrdiff_t>(n_axes),
+                           [k](const TextColumn& column) { return std::isnan(column.values[k]); });
+    };
+    std::vector<std::size_t> rows;
+    for (std::size_t k = 0; k < read.times->values.size(); ++k)
+        if (is_empty(k)) rows.push_back(k);
+    leave_out(read, rows);
+    return rows.size();
 }
 
 }  // namespace zlg::logs

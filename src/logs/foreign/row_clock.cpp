@@ -166,6 +166,26 @@ double width_about(const LongColumn& t, double step) {
     return high - low;
 }
 
+// Rows from one step that is a place longer to the next, where most are as many; 0: they are not, as those of rows that
+// are missing by chance.
+double regular_gap(const LongColumn& t, double step, double far, double place) {
+    constexpr std::size_t fewest = 6;
+    std::vector<double> gaps;
+    std::size_t last = 0;
+    for (std::size_t k = 1; k < t.size(); ++k) {
+        const double longer = t[k] - t[k - 1] - step;
+        if (!(longer > far && longer < 1.5 * place)) continue;
+        if (last > 0) gaps.push_back(static_cast<double>(k - last));
+        last = k;
+    }
+    if (gaps.size() < fewest) return 0.0;
+    const auto middle = gaps.begin() + std::ssize(gaps) / 2;
+    std::ranges::nth_element(gaps, middle);
+    const double usual = *middle, slack = std::max(1.0, 0.02 * usual);
+    const auto n = std::ranges::count_if(gaps, [&](double gap) { return std::fabs(gap - usual) <= slack; });
+    return n >= static_cast<std::ptrdiff_t>(fewest) && 5 * n >= 3 * std::ssize(gaps) ? usual : 0.0;
+}
+
 // Rounded stamps of rows that are no whole number of places apart show rows that are missing only where the stamps are
 // all within a place of an even course. Where few steps are odd and lie as evenly as those of such a course, both may
 // be: `said`, the step that is said, decides; 0: none is.
@@ -175,13 +195,14 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
     const auto [place, is_decimal, digit] = coarse_place(t, std::min(mean, found.step));
     if (place == 0.0) return;
     std::size_t n_odd = 0;
-    for (std::size_t k = 1; k < t.size(); ++k)
-        n_odd += std::fabs((t[k] - t[k - 1]) - found.step) > 0.1 * place ? 1u : 0u;
+    const double far = 0.1 * place + digit;
+    for (std::size_t k = 1; k < t.size(); ++k) n_odd += std::fabs((t[k] - t[k - 1]) - found.step) > far ? 1u : 0u;
     // Of whole numbers of places only holes are odd. So many that came by chance lie as evenly as those of another rate
     // once in 12^12/12!, 20 000.
     constexpr std::size_t fewest_even = 12;
     const bool are_few = 10 * n_odd < t.size();
-    if (n_odd < 3 || (are_few && n_odd < fewest_even)) return;
+    const double gap = are_few ? regular_gap(t, found.step, far, place) : 0.0;
+    if (n_odd < 3 || (are_few && n_odd < fewest_even && gap == 0.0)) return;
     const double n_steps = static_cast<double>(t.size() - 1);
     double least = mean - place / n_steps, most = mean + place / n_steps;
     for (int pass = 0; pass < 40; ++pass) {
@@ -194,18 +215,19 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
     const double step = (least + most) / 2.0;
     const bool is_even = width_about(t, step) <= 1.01 * place + digit;
     if (are_few) {
-        if (!is_even || (said > 0.0 && std::fabs(said - found.step) < std::fabs(said - step))) return;
+        const double other = is_even ? step : found.step + place / gap;
+        if ((!is_even && gap == 0.0) || (said > 0.0 && std::fabs(said - found.step) < std::fabs(said - other))) return;
         if (said == 0.0)
             throw FormatError(fmt::format(
                 "{}, {}: its times, rounded to {:g}, are those of rows {:.6g} apart, and of rows {:.6g} apart of which "
-                "{} are missing; allowed is one of both: --map rate_hz=...",
-                path, described(times), place, step, found.step, found.n_missing));
+                "{} are missing; allowed is one of both: --map rate_hz=... with time_unit=...",
+                path, described(times), place, other, found.step, found.n_missing));
     }
     if (is_even) {
         found = {.step = step, .tolerance = 1e-3 + 2.0 * place / (t.back() - t.front()), .holes = {}, .n_missing = 0};
         return;
     }
-    if (!is_decimal) return;
+    if (!is_decimal && gap == 0.0) return;
     throw FormatError(fmt::format(
         "{}, {}: its times are rounded to {:g}, with rows about {:.6g} apart, and not even, so that they do not "
         "say which rows are missing; --map time=none and --map rate_hz=... if none are",
@@ -250,8 +272,8 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
     check_repetitions(times, path);
     const auto unit = known_time_unit(path, times.name, times.holds_dates, mapping);
     const double said = presumed_step_s.value_or(0.0) * unit.value_or(0.0);
-    check_coarse(times, *clock.times, said, path);
     refuse_clock_digits(times, *clock.times, path);
+    check_coarse(times, *clock.times, said, path);
     check_holes(times, *clock.times, path);
     refuse_many_missing(path, described(times), times.values, *clock.times,
                         "; --map time=none with rate_hz if none are missing");

@@ -31,6 +31,9 @@ double go_on(LongColumn& values, double origin = 0.0);
 // errors  FormatError: they are.
 void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const std::string& path);
 
+// Of all columns and the times these rows, from 0 and in rising order.
+void leave_out(TextTable& read, const std::vector<std::size_t>& rows);
+
 // Leaves out rows that repeat the row before and come far too soon after it; returns what was left out, a line.
 //
 // errors  FormatError: such rows have other values than the row before.

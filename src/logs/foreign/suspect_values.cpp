@@ -286,9 +286,11 @@ std::string spikes_of(const Values& values, const std::string& what) {
         }
         return k;
     };
-    std::size_t n = 0, first = 0;
+    // A number above the table, such as its rate, is taken for the first row.
+    const auto jumps = [&](std::size_t k) { return std::fabs(values[k] - values[k - 1]) > least; };
+    std::size_t n = values.size() > 2 && jumps(1) && !jumps(2) ? 1 : 0, first = 0;
     for (std::size_t k = 1; k < values.size(); ++k) {
-        if (!(std::fabs(values[k] - values[k - 1]) > least)) continue;
+        if (!jumps(k)) continue;
         const std::size_t to = back(k);
         if (n == 0) first = k;
         n += to - k;

@@ -111,8 +111,9 @@ Dialect dialect_of(PartedLines& lines, const std::string& path, TextLayout layou
     return found->dialect();
 }
 
-// No row of numbers: a line that may stand above a table.
+// No row of numbers: a line that may stand above a table, one of nothing but separators too.
 bool may_be_preamble(PartedLines& lines) {
+    if (lines.lines().front().text.find_first_not_of("\t;|, ") == std::string::npos) return true;
     for (const char separator : {'\t', ';', '|', ',', blanks_separator}) {
         const std::vector<Field>& fields = lines.rows(separator).front();
         if (!fields.empty() && std::ranges::all_of(fields, [](const Field& field) {
@@ -125,9 +126,17 @@ bool may_be_preamble(PartedLines& lines) {
                                [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
 }
 
+// Where every line begins as a comment does, none is one.
+FirstLines sample_of(const std::string& path, const Mapping& mapping, TextLayout& layout) {
+    FirstLines sample = first_lines_of(path, layout);
+    if (!sample.lines.empty() || sample.head.empty() || mapping.has("comment")) return sample;
+    layout.comment.clear();
+    return first_lines_of(path, layout);
+}
+
 struct Look {
     Look(const std::string& path, const Mapping& mapping)
-        : layout{layout_of(mapping)}, sample{first_lines_of(path, layout)}, lines{sample} {}
+        : layout{layout_of(mapping)}, sample{sample_of(path, mapping, layout)}, lines{sample} {}
     Look(const Look&) = delete;
     Look& operator=(const Look&) = delete;
 
@@ -142,7 +151,9 @@ struct Look {
 std::vector<std::string> words_of(const std::string& line, const Dialect& dialect) {
     std::vector<Field> fields;
     split_fields(line, dialect.separator, fields);
-    if (fields.size() == dialect.n_fields + 1 && fields.back().text.empty()) fields.pop_back();
+    // LabVIEW names a column of comments, which its rows leave out.
+    if (fields.size() == dialect.n_fields + 1 && (fields.back().text.empty() || fields.back().text == "Comment"))
+        fields.pop_back();
     if (fields.size() + 1 == dialect.n_fields && dialect.ends_empty) fields.emplace_back();
     if (fields.size() != dialect.n_fields) return {};
     std::vector<std::string> words;
@@ -168,8 +179,11 @@ void find_table(Look& look, const std::string& path, const Mapping& mapping) {
         ++look.layout.skip_lines;
     }
     if (reason.empty()) reason = fmt::format("{}: holds no rows of numbers", path);
-    if (std::ssize(look.preamble) > max_preamble)
-        reason += fmt::format("; a head of more than {} lines is skipped by --map skip_lines=NUMBER", max_preamble);
+    if (!mapping.has("skip_lines") || !mapping.has("sensor"))
+        reason += fmt::format(
+            "; a head of more than {} lines is skipped by --map skip_lines=NUMBER, rows without a word of those that "
+            "are wanted by --map sensor=WORD",
+            max_preamble);
     throw FormatError(reason);
 }
 

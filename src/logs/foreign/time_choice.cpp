@@ -174,18 +174,20 @@ std::string open_times(const ForeignTable& table, const Mapping& mapping) {
 }
 
 std::vector<std::string> unused_times(const ForeignTable& table, const Mapping& mapping) {
-    if (mapping.has("time") || mapping.has("half")) return {};
+    const bool is_none = mapping.text("time") == "none";
+    if ((mapping.has("time") && !is_none) || mapping.has("half")) return {};
     const std::int64_t times = time_column(table, mapping);
     std::vector<std::string> notes;
     for (const ForeignColumn& column : table.columns) {
         if (column.number == times || column.values.size() < 2 || is_said(column, table, mapping)) continue;
         const bool is_named = names_time(column.name);
-        if (times == 0 && is_named && (column.is_number || !column.word.empty()))
+        if (times == 0 && is_named && !is_none && (column.is_number || !column.word.empty()))
             throw MappingError(
                 fmt::format("{}, {}: is named as times are, and does not rise; --map time=none leaves it out",
                             table.path, described(column)));
         // Another column of times was held against the first where both are named.
-        const bool holds_words = times == 0 && (is_named || mentions_time(column.name)) && !column.is_number;
+        const bool holds_words =
+            times == 0 && !is_none && (is_named || mentions_time(column.name)) && !column.is_number;
         const bool is_left = times == 0 || merely_numbers(column_at(table, times));
         // A date (datum) beside the time of the day.
         if (times != 0 && !column.is_number && text::lower_case(column.name).starts_with("dat")) {
@@ -206,7 +208,15 @@ std::vector<std::string> unused_times(const ForeignTable& table, const Mapping& 
 }
 
 std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) {
-    if (mapping.has("rate_hz") || !open_times(table, mapping).empty()) return {};
+    if (mapping.has("rate_hz")) return {};
+    if (const auto open = time_columns(table, mapping); open.size() > 1) {
+        const auto says_unit = [&](std::int64_t n) {
+            const ForeignColumn& column = column_at(table, n);
+            return column.holds_dates || unit_of(column.name);
+        };
+        if (mapping.has("time_unit") || std::ranges::all_of(open, says_unit)) return {};
+        return "time_unit=s, ms, us or ns (of these times)";
+    }
     const std::int64_t number = time_column(table, mapping);
     if (number == 0) return "rate_hz=... (rows a second; no column of times was recognised, or time=COLUMN)";
     const ForeignColumn& column = column_at(table, number);
@@ -221,9 +231,10 @@ std::string missing_of_clock(const ForeignTable& table, const Mapping& mapping) 
         return fmt::format("rate_hz=... (rows a second; {} merely numbers them), or time_unit=s, ms, us, ns",
                            described(column));
     const auto found = row_times(times_in(column), table.path, false);
-    if (!found) return fmt::format("time_unit=s, ms, us or ns (of {})", described(column));
-    return fmt::format("time_unit=s (then {:.6g} Hz), ms ({:.6g} Hz), us or ns, of {}", 1.0 / found->step,
-                       1e3 / found->step, described(column));
+    constexpr const char* else_rate = "or rate_hz=... (rows a second), with time=none where it holds no times";
+    if (!found) return fmt::format("time_unit=s, ms, us or ns (of {}), {}", described(column), else_rate);
+    return fmt::format("time_unit=s (then {:.6g} Hz), ms ({:.6g} Hz), us or ns, of {}, {}", 1.0 / found->step,
+                       1e3 / found->step, described(column), else_rate);
 }
 
 }  // namespace zlg::logs

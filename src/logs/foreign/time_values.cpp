@@ -88,8 +88,10 @@ std::vector<std::string> settle_times(TextTable& read) {
 }
 
 void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const std::string& path) {
-    constexpr std::size_t fewest = 2;
+    // One full minute may be a cut at round seconds, unless hours stand before it.
+    constexpr double with_hours = 10000.0;
     constexpr double hidden_s = 40.0;  // from 59 to 100
+    const std::size_t fewest = times.values.front() < with_hours ? 2 : 1;
     if (found.holes.size() < fewest || times.holds_dates || found.step >= hidden_s) return;
     const bool are_minutes = std::ranges::all_of(found.holes, [&](const Hole& hole) {
         const double before = std::fmod(times.values[hole.row], 100.0), after = times.values[hole.row + 1];
@@ -101,6 +103,21 @@ void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const s
         "{}, {}: jumps from {} to {} as hours, minutes and seconds in one number do; allowed are seconds, or "
         "--map time=none with rate_hz",
         path, described(times), times.values[row], times.values[row + 1]));
+}
+
+void leave_out(TextTable& read, const std::vector<std::size_t>& rows) {
+    const auto thin = [&rows](LongColumn& values) {
+        std::size_t next = 0;
+        LongColumn thinned;
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (next < rows.size() && rows[next] == k)
+                ++next;
+            else
+                thinned.push_back(values[k]);
+        values = std::move(thinned);
+    };
+    thin(read.times->values);
+    for (TextColumn& column : read.columns) thin(column.values);
 }
 
 std::vector<std::string> take_once(TextTable& read, const std::string& path) {
@@ -126,18 +143,7 @@ std::vector<std::string> take_once(TextTable& read, const std::string& path) {
             "{}, {}, the first in row {}, with other values; allowed are messages that stand once, or --map time=none "
             "with rate_hz",
             path, what, again.front() + 1));
-    const auto thin = [&again](LongColumn& values) {
-        std::size_t next = 0;
-        LongColumn thinned;
-        for (std::size_t k = 0; k < values.size(); ++k)
-            if (next < again.size() && again[next] == k)
-                ++next;
-            else
-                thinned.push_back(values[k]);
-        values = std::move(thinned);
-    };
-    thin(read.times->values);
-    for (TextColumn& column : read.columns) thin(column.values);
+    leave_out(read, again);
     return {what + ", with its values, and are left out"};
 }
 

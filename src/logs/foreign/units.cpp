@@ -85,12 +85,14 @@ std::string without_factor(std::string_view text) {
 // Of the text where a name may have its unit the first that is one.
 template <class Reads>
 std::optional<AngleUnit> first_unit(std::string_view name, const Reads& reads) {
-    const std::size_t open = name.find_first_of("[(");
-    if (open != std::string_view::npos) {
+    std::size_t open = name.find_first_of("[(");
+    const bool has_brackets = open != std::string_view::npos;
+    for (; open != std::string_view::npos; open = name.find_first_of("[(", open + 1)) {
         const std::size_t close = name.find_first_of("])", open);
-        if (close == std::string_view::npos) return std::nullopt;
-        return reads(name.substr(open + 1, close - open - 1));
+        if (close == std::string_view::npos) break;
+        if (const auto unit = reads(name.substr(open + 1, close - open - 1))) return unit;
     }
+    if (has_brackets) return std::nullopt;
     // rate_deg_s before rate_s; a name that is nothing but a unit says nothing of a quantity.
     std::vector<std::size_t> parts;
     for (std::size_t at = name.find_first_of("_ "); at != std::string_view::npos; at = name.find_first_of("_ ", at + 1))

@@ -68,7 +68,7 @@ bool has_other_letters(std::string_view line) {
 
 // Of a sentence such as $GPRMC,...*4A the fields.
 std::string_view without_check_sum(std::string_view line) {
-    if (!line.starts_with('$') && !line.starts_with('%')) return line;
+    if (std::string_view{"$%#"}.find(line.front()) == std::string_view::npos) return line;
     const std::size_t star = line.rfind('*');
     if (star == std::string_view::npos) return line;
     const std::size_t n_digits = line.find_last_not_of(" \t\r") - star;

@@ -137,9 +137,10 @@ Recognised Recognition::of_columns(const std::vector<std::string>& columns) {
 
 void Recognition::refuse_ambiguous(const Reading& reading, const std::string& one, const std::string& other) const {
     const Line& line = lines_.lines()[reading.dialect.has_header ? 1 : 0];
-    throw FormatError(
-        fmt::format("{0}:{1}: '{2}' can be read as {3}, or as {4}; say which by {5}.separator and {5}.decimal", path_,
-                    line.number, shown(line.text), one, other, layout_.section));
+    throw FormatError(fmt::format(
+        "{0}:{1}: '{2}' can be read as {3}, or as {4}; say which by {5}.separator=tab|semicolon|bar|comma|space and "
+        "{5}.decimal=point|comma",
+        path_, line.number, shown(line.text), one, other, layout_.section));
 }
 
 const std::string& Recognition::suspicion(const Reading& reading) {

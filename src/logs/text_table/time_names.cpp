@@ -89,7 +89,11 @@ bool is_factor(std::string_view name, std::size_t from, std::size_t to) {
     const bool behind_x = from > 0 && (name[from - 1] == 'x' || name[from - 1] == 'X') && !is(from - 2, is_unit_letter);
     const bool numbers_word = is(from - 1, is_unit_letter) && !behind_x;
     const bool is_long = to - from > 1;
-    return is(to, is_unit_letter) ? is_long || !numbers_word : is_long && !numbers_word;
+    if (!is(to, is_unit_letter)) return is_long && !numbers_word;
+    // The number of a device, as in 4F2B, has letters that are no unit.
+    std::string_view behind = name.substr(to);
+    const std::string word = next_word(behind);
+    return is_long || (!numbers_word && (word.size() > 1 || time_unit(word)));
 }
 
 bool has_word(std::string_view column_name, std::string_view words) {
@@ -160,6 +164,10 @@ bool names_time(std::string_view column_name) {
 
 bool mentions_time(std::string_view column_name) {
     return has_word(column_name, " time timestamp stamp zeit tow epoch unix utc elapsed micros millis mjd ");
+}
+
+bool names_statistic(std::string_view column_name) {
+    return has_word(column_name, " sigma std stddev stdev sd rms var bias offset err unc uncertainty range limit ");
 }
 
 bool names_counter(std::string_view column_name) {

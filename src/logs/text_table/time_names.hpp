@@ -13,6 +13,9 @@ namespace zlg::logs {
 // One of its words is of times: Shimmer_Timestamp_Unix, SampleTimeFine, GPS TOW.
 [[nodiscard]] bool mentions_time(std::string_view column_name);
 
+// One of its words is of something said of a rate, and no rate: sigma_dps, gyro_bias_dps, range_dps.
+[[nodiscard]] bool names_statistic(std::string_view column_name);
+
 // One of its words is of a number of rows: seq, PacketCounter, loopIteration.
 [[nodiscard]] bool names_counter(std::string_view column_name);
 
