@@ -158,9 +158,10 @@ def copied(source, folder):
 
 
 def compiled(folder, source, options):
-    """Compile with the headers in `folder` before the original ones, among them those beside the original source."""
+    """Compile with the headers in `folder` before the original ones, among them those beside the originals of source and header."""
     original = source.relative_to(folder) if source.is_relative_to(folder) else source.relative_to(ROOT)
-    includes = [f"-I{folder}/src/core/include", f"-I{folder}/src/core", *INCLUDES, f"-I{original.parent}"]
+    beside = [path.relative_to(folder).parent for path in folder.rglob("*.hpp")]
+    includes = [f"-I{folder}/src/core/include", f"-I{folder}/src/core", *INCLUDES, *(f"-I{path}" for path in (original.parent, *beside))]
     return run([*COMPILER, *options, *includes, "-c", source, "-o", folder / f"{source.stem}.o"]).returncode == 0
 
 

@@ -41,7 +41,6 @@ FrameOrderOutput step(FrameOrderState& state, bool received, std::uint32_t seque
         state.on_time = on_time && (!goes_on || state.on_time);
         out.fresh = is_accepted(state, sequence);
     }
-    if (out.fresh) state.n_in_row = 0;
     state.expected = (out.fresh ? sequence : state.expected) + 1;
     state.last = sequence;
     return out;

@@ -109,6 +109,8 @@ TEST(PerimeterLoop, AnAnalogLoopIsWatchedNotMoved) {
     high.piezo = Volts{not_a_number};
     EXPECT_FALSE(step(analog, s, high).near_range_end);  // the set-point stands in
     EXPECT_EQ(s.set_point_v, 150.0);
+    s = at(analog, 295.0);
+    EXPECT_TRUE(step(analog, s, high).near_range_end);
 }
 
 }  // namespace zlg::core::perimeter_loop_test
