@@ -252,10 +252,11 @@ double find(const Record& record, DriftLaw& law) {
     return walk;
 }
 
+// By the midpoint rule, with 50 points or more a period of the fastest field.
 double field_integral_g_s(const FieldCourse& field, const Piece& p) {
-    constexpr int samples = 1000;
+    const double samples = std::ceil(std::fmax(1000.0, 50.0 * fastest_field_hz * p.length_s));
     double sum_g = 0.0;
-    for (int k = 0; k < samples; ++k) sum_g += field(p.start_s + p.length_s * (k + 0.5) / samples);
+    for (double k = 0.5; k < samples; ++k) sum_g += field(p.start_s + p.length_s * k / samples);
     return sum_g * p.length_s / samples;
 }
 

@@ -63,7 +63,7 @@ calibration::Calibration calibrated(const config::Config& c) {
     const std::vector<calibration::LabLog> logs{reader.finish()};
     calibration::Presumed presumed{.rate_arcsec_s = {rate_arcsec_s}};
     if (c.field.kind != config::FieldKind::none)
-        presumed.field = {[field = c.field](double time_s) { return twin::field_g(field, time_s); }};
+        presumed.field.of_logs = {[field = c.field](double time_s) { return twin::field_g(field, time_s); }};
     return calibration::calibrate(logs, presumed);
 }
 
