@@ -33,11 +33,10 @@ std::vector<Piece> turning_pieces(std::span<const LabLog> logs) {
 }
 
 // Counts that a tick lacks while the bias grows with temperature, for the half that comes second has more of it:
-// s (T/4) df/dt a second, by its slope over 1 C there. They follow the helicity as a magnetic drift does, and are put
-// back.
+// s (T/4) df/dt a second. They follow the helicity as a magnetic drift does, and are put back.
 double counts_of_warming(const Piece& p, const BiasLaw& bias, double tick_s) {
     if (!bias.bias_hz.determined || !std::isfinite(p.signed_rise_c)) return 0.0;
-    return 0.25 * tick_s * (bias.at_hz(p.temperature_c + 0.5) - bias.at_hz(p.temperature_c - 0.5)) * p.signed_rise_c;
+    return 0.25 * tick_s * bias.slope_hz_per_c(p.temperature_c) * p.signed_rise_c;
 }
 
 // Angles and their laws.
