@@ -227,6 +227,16 @@ double BiasLaw::at_hz(double temperature_c) const {
     return bias_hz.value * (std::isfinite(above_c) ? 1.0 + coefficient_taken_per_c * above_c : 1.0);
 }
 
+double BiasLaw::slope_hz_per_c(double temperature_c) const {
+    double half_c = 0.5;
+    if (!table.knots.empty()) {
+        const double least_c = table.knots.front()[0], most_c = table.knots.back()[0];
+        half_c = std::fmin(half_c, 0.5 * (most_c - least_c));
+        temperature_c = std::fmin(std::fmax(temperature_c, least_c + half_c), most_c - half_c);
+    }
+    return (at_hz(temperature_c + half_c) - at_hz(temperature_c - half_c)) / (2.0 * half_c);
+}
+
 BiasLaw find_bias_law(std::span<const LabLog> logs, double reference_temperature_c, double presumed_per_c) {
     BiasLaw law{.reference_temperature_c = reference_temperature_c};
     const std::vector<Reading> readings = readings_of(logs);

@@ -130,9 +130,9 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
     const HalfWaveLaw half_wave =
         find_half_wave_law(logs, reference_c, presumed.half_wave_temperature_coefficient_per_c);
     add(half_wave, find_detuning_scale(seen, half_wave, presumed.stepped_voltage), c);
-    DriftLaw drift = find_drift(logs, rates_arcsec_s, presumed.scale_arcsec, bias, presumed.field);
-    if (presumed.field.empty())
-        drift.sensitivity_arcsec_s_g = drift.sensitivity_per_c = numeric::refused("the field of a log is not known");
+    DriftLaw drift = find_drift(logs, rates_arcsec_s, presumed.scale_arcsec, bias, presumed.field.of_logs);
+    if (presumed.field.of_logs.empty())
+        drift.sensitivity_arcsec_s_g = drift.sensitivity_per_c = numeric::refused(presumed.field.why_none);
     add(drift, c);
     add(find_lock_in_law(logs, rates_arcsec_s,
                          {.edge_s = presumed.bias_edge_s, .counts_per_turn = presumed.counts_per_turn}),

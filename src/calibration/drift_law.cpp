@@ -33,11 +33,10 @@ std::vector<Piece> turning_pieces(std::span<const LabLog> logs) {
 }
 
 // Counts that a tick lacks while the bias grows with temperature, for the half that comes second has more of it:
-// s (T/4) df/dt a second, by its slope over 1 C there. They follow the helicity as a magnetic drift does, and are put
-// back.
+// s (T/4) df/dt a second. They follow the helicity as a magnetic drift does, and are put back.
 double counts_of_warming(const Piece& p, const BiasLaw& bias, double tick_s) {
     if (!bias.bias_hz.determined || !std::isfinite(p.signed_rise_c)) return 0.0;
-    return 0.25 * tick_s * (bias.at_hz(p.temperature_c + 0.5) - bias.at_hz(p.temperature_c - 0.5)) * p.signed_rise_c;
+    return 0.25 * tick_s * bias.slope_hz_per_c(p.temperature_c) * p.signed_rise_c;
 }
 
 // Angles and their laws.
@@ -252,10 +251,11 @@ double find(const Record& record, DriftLaw& law) {
     return walk;
 }
 
+// By the midpoint rule, with 50 points or more a period of the fastest field.
 double field_integral_g_s(const FieldCourse& field, const Piece& p) {
-    constexpr int samples = 1000;
+    const double samples = std::ceil(std::fmax(1000.0, 50.0 * fastest_field_hz * p.length_s));
     double sum_g = 0.0;
-    for (int k = 0; k < samples; ++k) sum_g += field(p.start_s + p.length_s * (k + 0.5) / samples);
+    for (double k = 0.5; k < samples; ++k) sum_g += field(p.start_s + p.length_s * k / samples);
     return sum_g * p.length_s / samples;
 }
 

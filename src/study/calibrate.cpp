@@ -117,23 +117,22 @@ bool read_by_one_slope(const Lab& lab) {
     });
 }
 
-// Of a faster one a piece of a log holds whole periods, which tell nothing and could not be integrated by samples.
-constexpr double fastest_field_hz = 1.0;
-
 // Of each log, as its head or the user says; none where one of them does not. Whether a file that a log names is still
 // the same nobody knows.
-std::vector<calibration::FieldCourse> fields_of(const CalibrationTask& task, const Lab& lab) {
-    std::vector<calibration::FieldCourse> all;
+calibration::KnownFields fields_of(const CalibrationTask& task, const Lab& lab) {
+    calibration::KnownFields known;
     for (const config::Config& c : lab.configs) {
         const bool is_unseen = c.field.kind == config::FieldKind::file && !config::is_given(task.said, "field.course");
-        const bool is_fast = c.field.kind == config::FieldKind::sine && c.field.frequency_hz > fastest_field_hz;
-        if (c.field.kind == config::FieldKind::none || is_unseen || is_fast) return {};
+        if (c.field.kind == config::FieldKind::none || is_unseen) return {};
+        if (c.field.kind == config::FieldKind::sine && c.field.frequency_hz > calibration::fastest_field_hz)
+            return {.why_none = fmt::format("field.frequency_hz = {:g} tells nothing: allowed is up to {:g} Hz",
+                                            c.field.frequency_hz, calibration::fastest_field_hz)};
         config::Config only;
         only.field = c.field;
-        all.emplace_back(
+        known.of_logs.emplace_back(
             [field = recorded::with_environment(only).field](double time_s) { return twin::field_g(field, time_s); });
     }
-    return all;
+    return known;
 }
 
 // Of what is to be found, only what the user says is presumed, never what a log says of itself.

@@ -120,3 +120,15 @@ TEST(BiasLaw, refuses_what_is_too_short_and_a_sign_that_is_wrong) {
     EXPECT_FALSE(bias.determined);
     EXPECT_NE(bias.reason.find("sign"), std::string::npos);
 }
+
+TEST(BiasLaw, a_table_has_its_slope_up_to_its_ends) {
+    BiasLaw law{.bias_hz = numeric::estimated(60e3, 1.0), .table = {.knots = {{0.0, 1e-3}, {20.0, 0.0}, {22.0, 4e-4}}}};
+    for (const double t_c : {-5.0, 0.0, 0.3, 10.0}) EXPECT_NEAR(law.slope_hz_per_c(t_c), -3.0, 1e-9) << t_c;
+    for (const double t_c : {21.0, 21.9, 22.0, 30.0}) EXPECT_NEAR(law.slope_hz_per_c(t_c), 12.0, 1e-9) << t_c;
+    EXPECT_NEAR(law.slope_hz_per_c(20.0), 4.5, 1e-9);
+    law.table.knots = {{20.0, 0.0}, {20.5, 1e-4}};
+    EXPECT_NEAR(law.slope_hz_per_c(20.5), 12.0, 1e-9);
+    law.table.knots.clear();
+    law.coefficient_taken_per_c = -5e-4;
+    EXPECT_NEAR(law.slope_hz_per_c(60.0), -30.0, 1e-9);
+}

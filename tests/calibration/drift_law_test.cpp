@@ -4,6 +4,7 @@
 
 using namespace zlg::calibration;
 using namespace synthetic;
+using std::numbers::pi;
 
 namespace {
 
@@ -137,4 +138,23 @@ TEST(DriftLaw, the_start_is_as_uncertain_as_it_is_said_to_be_where_the_warming_i
         EXPECT_GT(squares, a == 0.0 ? 0.6 * 3.9 : 3.9) << a;
         EXPECT_LT(squares, 39.3) << a;
     }
+}
+
+// Pieces of 3000 whole periods and a quarter: the quarter alone tells, 1/(2 pi f) of the amplitude of 1 G.
+TEST(DriftLaw, a_field_is_integrated_over_long_pieces) {
+    constexpr double hz = fastest_field_hz, sensitivity_arcsec_s_g = 1e4, scale_arcsec = 3.263;
+    constexpr std::int64_t ticks = 600'050;
+    LabLog log;
+    for (std::int64_t k = 0; k < 16; ++k) {
+        const std::int8_t mode = k % 2 == 0 ? 1 : -1;
+        const double from = hz * 0.005 * static_cast<double>(k * ticks);
+        const double g_s = (std::cos(2.0 * pi * from) - std::cos(2.0 * pi * (from + 0.25))) / (2.0 * pi * hz);
+        log.segments.push_back({.mode = mode, .first_tick = k * ticks, .n_ticks = ticks, .n_settled = ticks});
+        log.blocks.push_back({.segment = k, .first_tick = k * ticks, .n_ticks = ticks, .mode = mode});
+        log.blocks.back().counts = std::llround(mode * sensitivity_arcsec_s_g * g_s / scale_arcsec);
+    }
+    const FieldCourse field = [](double time_s) { return std::sin(2.0 * pi * hz * time_s); };
+    const DriftLaw law = find_drift_law(std::span{&log, 1}, scale_arcsec, 0.0, {}, std::span{&field, 1});
+    ASSERT_TRUE(law.sensitivity_arcsec_s_g.determined) << law.sensitivity_arcsec_s_g.reason;
+    EXPECT_NEAR(law.sensitivity_arcsec_s_g.value, sensitivity_arcsec_s_g, 0.003 * sensitivity_arcsec_s_g);
 }

@@ -126,6 +126,22 @@ TEST(Calibrate, refuses_logs_that_do_not_go_together) {
     EXPECT_EQ(study::calibrate(said).config.gyro.reference_temperature_c, 30.0);
 }
 
+TEST(Calibrate, says_which_field_tells_nothing) {
+    Lab lab{{{"a", log_of(bench(1), 1.0)}}};
+    study::CalibrationTask said = lab.task();
+    const auto why = [&said] {
+        for (const calibration::Constant& c : study::calibrate(said).calibration.constants)
+            if (c.key == "field.sensitivity_arcsec_s_g") return c.estimate.reason;
+        return std::string{};
+    };
+    EXPECT_EQ(why(), "the field of a log is not known");
+    config::apply_set(said.said, "field.kind=sine");
+    config::apply_set(said.said, "field.frequency_hz=2.5");
+    EXPECT_EQ(why(), "field.frequency_hz = 2.5 tells nothing: allowed is up to 1 Hz");
+    config::apply_set(said.said, "field.frequency_hz=1");
+    EXPECT_NE(why().find("pieces of settled record"), std::string::npos) << why();
+}
+
 TEST(Calibrate, refuses_a_log_without_a_tick_or_whose_facts_nobody_says) {
     Lab lab{{{"a", log_of(bench(1), 1.0)}}};
     Log& log = lab.logs.at("a");

@@ -15,13 +15,14 @@ constexpr double log_s = 200.0;
 constexpr double rate_arcsec_s = 50.0;
 
 // A ramp, a soak or a chamber's cycle, quick, with a sensor that follows at once; a field that swings, steps or stands.
+// Of two gyros one walks as the default does, the other ten times as far.
 config::Config gyro(std::uint64_t number) {
     const chance::Draws draws{.seed = 3, .cause = chance::Cause::environment, .trial = number};
     config::Config c;
     c.run.seed = number + 1;
     c.gyro.light_samples = 8;
     c.gyro.bias_hz = draws.of("bias").within(50e3, 70e3);
-    c.drift.random_walk_arcsec_sqrt_s = draws.of("walk").within(1.0, 2.0);
+    if (number / 3 % 2 == 0) c.drift.random_walk_arcsec_sqrt_s = draws.of("walk").within(1.0, 2.0);
     c.switching.interval_s = 2.0;
     c.motion.kind = config::MotionKind::constant;
     c.motion.rate_arcsec_s = rate_arcsec_s;
@@ -63,7 +64,7 @@ calibration::Calibration calibrated(const config::Config& c) {
     const std::vector<calibration::LabLog> logs{reader.finish()};
     calibration::Presumed presumed{.rate_arcsec_s = {rate_arcsec_s}};
     if (c.field.kind != config::FieldKind::none)
-        presumed.field = {[field = c.field](double time_s) { return twin::field_g(field, time_s); }};
+        presumed.field.of_logs = {[field = c.field](double time_s) { return twin::field_g(field, time_s); }};
     return calibration::calibrate(logs, presumed);
 }
 
@@ -90,6 +91,18 @@ struct Errors {
     }
 };
 
+// by_c  what the sensor is behind.
+void add_knots(const config::Config& c, const calibration::Calibration& found, double by_c, Errors& errors) {
+    const calibration::BiasTable& table = found.bias_table;
+    EXPECT_FALSE(table.knots.empty()) << table.reason;
+    const double line_hz = estimate(found, "gyro.bias_hz").value;
+    for (std::size_t k = 0; k < table.knots.size(); ++k) {
+        const double change = twin::bias_change(c.gyro, table.knots[k][0] + by_c - c.gyro.reference_temperature_c);
+        errors.add((line_hz * (1.0 + table.knots[k][1]) - c.gyro.bias_hz * (1.0 + change)) /
+                   (line_hz * table.sigma[k]));
+    }
+}
+
 TEST(CalibratedEnvironment, the_sensitivity_and_the_knots_of_the_bias_are_true_within_their_errors) {
     Errors sensitivity, per_c, knots;
     for (std::uint64_t number = 0; number < 24; ++number) {
@@ -98,18 +111,26 @@ TEST(CalibratedEnvironment, the_sensitivity_and_the_knots_of_the_bias_are_true_w
         const calibration::Calibration found = calibrated(c);
         sensitivity.add(estimate(found, "field.sensitivity_arcsec_s_g"), c.field.sensitivity_arcsec_s_g);
         per_c.add(estimate(found, "field.sensitivity_per_c"), c.field.sensitivity_per_c);
-        const calibration::BiasTable& table = found.bias_table;
-        EXPECT_FALSE(table.knots.empty()) << number << table.reason;
-        const double line_hz = estimate(found, "gyro.bias_hz").value;
-        for (std::size_t k = 0; k < table.knots.size(); ++k) {
-            const double change = twin::bias_change(c.gyro, table.knots[k][0] - c.gyro.reference_temperature_c);
-            knots.add((line_hz * (1.0 + table.knots[k][1]) - c.gyro.bias_hz * (1.0 + change)) /
-                      (line_hz * table.sigma[k]));
-        }
+        add_knots(c, found, 0.0, knots);
     }
     sensitivity.expect_true("sensitivity");
     per_c.expect_true("per C");
     knots.expect_true("knots");
+}
+
+TEST(CalibratedEnvironment, a_sensor_that_lags_shifts_the_knots_by_lag_times_ramp) {
+    Errors shifted, knots;
+    for (std::uint64_t number = 0; number < 24; number += 3) {
+        config::Config c = gyro(number);
+        bend(c, number);
+        c.temperature.sensor_lag_s = 3.0;
+        const double ramp_c_s = c.temperature.profile.points.back().value / log_s;
+        const calibration::Calibration found = calibrated(c);
+        add_knots(c, found, c.temperature.sensor_lag_s * ramp_c_s, shifted);
+        add_knots(c, found, 0.0, knots);
+    }
+    shifted.expect_true("knots at what the gyro was");
+    EXPECT_GT(knots.sum_sq / knots.n, 4.0);
 }
 
 TEST(CalibratedEnvironment, nothing_is_found_that_the_logs_do_not_tell) {

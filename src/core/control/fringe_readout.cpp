@@ -50,6 +50,10 @@ constexpr double block_turns = 0.01;
 constexpr std::int32_t skew_blocks = 64;
 constexpr std::int32_t min_skew_blocks = 16;
 
+// A phase that creeps fills each octant right behind its border, where the comparators still lag: such a block takes
+// longer than twice its samples.
+constexpr std::int32_t most_skew_halves = 2 * samples_a_bin * ellipse_bins;
+
 // A photodiode stands still while the other one moves, or both do while the comparators change.
 bool is_stuck(const FringeReadoutConfig& c, FringeReadoutState& s, const FringeReadoutInput& in) noexcept {
     const double least = moved * c.amplitude;
@@ -145,7 +149,7 @@ void learn(const FringeReadoutConfig& c, FringeReadoutState& s, const Quadrature
     if (!done.completes) return;
     if (!was_learnt && s.ellipse.learnt) s.level = 1.0;
     const double mean = s.skew_sum_turns / (samples_a_bin * ellipse_bins);
-    if (!was_learnt) return;
+    if (!was_learnt || done.n_halves > most_skew_halves) return;
     if (s.n_skews < skew_blocks) ++s.n_skews;
     s.skew_turns += (mean - s.skew_turns) / s.n_skews;
 }

@@ -264,4 +264,13 @@ TEST(FringeReadout, PlacesThatRepeatAreNoSkew) {
     EXPECT_NEAR(e.state.skew_turns, 0.0, 0.001);
 }
 
+// A turn in 2500 halves: the first samples of every other octant are those in which the comparators lag.
+TEST(FringeReadout, APhaseThatCreepsTellsNoSkew) {
+    Electronics e = Electronics::learnt();
+    e.c.lag_turns = e.lag_turns = 0.016;
+    bool skewed = false;
+    for (std::int64_t k = 0; k < 60'000; ++k) skewed = skewed || e.at(4e-4 * static_cast<double>(k)).skewed;
+    EXPECT_FALSE(skewed);
+}
+
 }  // namespace zlg::core::fringe_readout_test

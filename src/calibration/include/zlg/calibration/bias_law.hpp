@@ -34,6 +34,8 @@ struct BiasLaw {
     bool contradicts = false;  // counts, mode and bias_sign do not go together: nothing follows from them
 
     [[nodiscard]] double at_hz(double temperature_c) const;
+    // Over 1 C, of a table within it: beyond its ends at_hz stands still, the gyro does not.
+    [[nodiscard]] double slope_hz_per_c(double temperature_c) const;
 };
 
 // presumed_per_c  the coefficient where the data determine none.

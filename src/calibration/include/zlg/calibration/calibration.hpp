@@ -12,6 +12,11 @@
 
 namespace zlg::calibration {
 
+struct KnownFields {
+    std::vector<FieldCourse> of_logs = {};  // of each; none: not known
+    std::string why_none = "the field of a log is not known";
+};
+
 // What is known beforehand. Of the constants to be found it holds only those that are used where the data do not
 // determine them.
 struct Presumed {
@@ -24,7 +29,7 @@ struct Presumed {
     bool read_by_slope = true;                        // all detunings were read by one and the same slope
     double bias_temperature_coefficient_per_c = 0.0;  // used where the logs hold a single temperature
     double half_wave_temperature_coefficient_per_c = 0.0;
-    std::vector<FieldCourse> field = {};  // of each log; none: not known
+    KnownFields field = {};
 };
 
 struct Constant {

@@ -24,6 +24,9 @@
 
 namespace zlg::calibration {
 
+// Of a faster one a piece of a log holds whole periods, which tell nothing.
+inline constexpr double fastest_field_hz = 1.0;
+
 // Gauss at a time since the first half of a log.
 using FieldCourse = std::function<double(double)>;
 
