@@ -9,6 +9,7 @@
 #include <zlg/calibration/rate_table.hpp>
 #include <zlg/config/schema.hpp>
 #include <zlg/deviations/series.hpp>
+#include <zlg/noise/line_error.hpp>
 
 #include "moved_values.hpp"
 
@@ -19,9 +20,7 @@ using calibration::RateTable;
 using calibration::TableStage;
 
 constexpr const char* scale = "scale_factor.ppm";
-constexpr const char* nonlinearity = "scale_nonlinearity.ppm";
 constexpr const char* asymmetry = "scale_asymmetry.ppm";
-constexpr const char* scale_repeatability = "scale_repeatability.ppm";
 constexpr const char* threshold = "threshold.deg_h";
 
 struct Turned {
@@ -33,6 +32,14 @@ struct Turned {
     [[nodiscard]] double degrees() const { return std::max(1.0, static_cast<double>(table.stages.size()) - 2.0); }
 };
 
+// Less than three degrees of freedom do not show whether the rate walks.
+noise::LineError error_of(const Turned& t) {
+    if (t.degrees() < 3.0) return {.slope_sigma = t.table.scale_factor.sigma, .degrees = t.degrees()};
+    std::vector<double> input, output;
+    for (const TableStage& s : t.table.stages) input.push_back(s.input_arcsec_s), output.push_back(s.output);
+    return noise::line_error(input, output);
+}
+
 std::vector<double> planned_rates(const Run& run, std::size_t n, double rate_hz) {
     std::vector<double> rates(n, std::numeric_limits<double>::quiet_NaN());
     const double length_s = static_cast<double>(n + 1) / rate_hz;
@@ -41,9 +48,7 @@ std::vector<double> planned_rates(const Run& run, std::size_t n, double rate_hz)
             fmt::format("{}: stages end at {:g} s, and the record at {:g} s; allowed is within it", run.place,
                         run.stages.back().to_s, static_cast<double>(n) / rate_hz));
     for (const Stage& stage : run.stages) {
-        const auto at = [&](double time_s) {
-            return std::min(n, static_cast<std::size_t>(std::ceil(time_s * rate_hz)));
-        };
+        const auto at = [&](double s) { return std::min(n, static_cast<std::size_t>(std::ceil(s * rate_hz))); };
         for (std::size_t k = at(stage.from_s); k < at(stage.to_s); ++k) rates[k] = stage.rate_arcsec_s;
     }
     return rates;
@@ -66,11 +71,6 @@ std::string no_table(const RateTable& table) {
     if (table.largest_residual_ppm > 1e5)
         return "the gyro does not follow the table: the stages are not those of the plan, or this is another sensor";
     return {};
-}
-
-// The estimates are widened for their few degrees of freedom; Student's law takes these as they are.
-double as_found(const numeric::Estimate& e, double degrees) {
-    return degrees >= 3.0 ? e.sigma * std::sqrt((degrees - 2.0) / degrees) : e.sigma;
 }
 
 // The smallest rate at which the gyro shows at least half of it, where it does at all larger ones. The zero of the line
@@ -130,18 +130,19 @@ Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, con
     Found found;
     if (tables.empty()) return found;
     std::vector<Value> scales, asymmetries;
-    double squares = 0.0, degrees = 0.0, hours = 0.0;
+    double squares = 0.0, free = 0.0, degrees = 0.0, hours = 0.0;
     std::string symmetric;
     for (const Turned& t : tables) {
         const numeric::Estimate &k = t.table.scale_factor, &a = t.table.asymmetry_ppm;
-        scales.push_back(measured(scale, 1e6 * (k.value * t.nominal - 1.0), 1e6 * t.nominal * as_found(k, t.degrees()),
+        const noise::LineError error = error_of(t);
+        scales.push_back(measured(scale, 1e6 * (k.value * t.nominal - 1.0), 1e6 * t.nominal * error.slope_sigma,
                                   t.degrees(), t.hours));
         if (a.determined)
             asymmetries.push_back(measured(asymmetry, a.value, a.sigma, t.degrees(), t.hours));
         else
             symmetric = a.reason;
         squares += t.table.nonlinearity_ppm * t.table.nonlinearity_ppm * static_cast<double>(t.table.stages.size());
-        degrees += t.degrees();
+        free += t.degrees(), degrees += error.degrees;
         hours += t.hours;
         found.figures.push_back(study::residual_figure(config, t.table, fmt::format("run {}", t.record->run->number),
                                                        found.figures.size()));
@@ -151,9 +152,9 @@ Found table_values(const Plan& plan, const std::vector<RunRecord*>& records, con
                             t.record->run->number, k.value, *plan.unit.scale_arcsec);
     }
     found.values.push_back(together(scales));
-    found.values.push_back(deviation(nonlinearity, std::sqrt(squares / degrees), degrees, hours));
+    found.values.push_back(deviation("scale_nonlinearity.ppm", std::sqrt(squares / free), degrees, hours));
     found.values.push_back(asymmetries.empty() ? not_determined(asymmetry, symmetric) : together(asymmetries));
-    found.values.push_back(repeatability(scale_repeatability, scales, "needs two rate tables or more"));
+    found.values.push_back(repeatability("scale_repeatability.ppm", scales, "needs two rate tables or more"));
     std::vector<Value> thresholds;
     for (const Turned& t : tables) thresholds.push_back(threshold_of(t));
     found.values.push_back(largest(thresholds));

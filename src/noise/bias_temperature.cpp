@@ -9,6 +9,8 @@
 
 #include <zlg/deviations/series.hpp>
 
+#include "walked_fit.hpp"
+
 namespace zlg::noise {
 namespace {
 
@@ -94,48 +96,18 @@ struct Fit {
     [[nodiscard]] bool shows(Eigen::Index k) const { return std::abs(value[k]) > sigmas * sigma[k] && sigma[k] > 0.0; }
 };
 
-// The mean over white noise and walks, in ratios three apart, each with its restricted likelihood at the best scale: a
-// walk that does not show may be there, and makes the error larger (Box and Tiao, Bayesian Inference in Statistical
-// Analysis, 1973).
+// The mean over white noise and walks.
 Fit fit_of(const Stretches& s, Eigen::Index order) {
     std::vector<Eigen::Index> columns;
     for (Eigen::Index k = 0; k < n_laws; ++k)
         if ((k == way || k % of_input <= order) && (s.laws.col(k).array() != 0.0).any()) columns.push_back(k);
-    const Eigen::MatrixXd laws = s.laws(Eigen::all, columns);
-    const Eigen::Index n = s.rate.size();
-    Eigen::MatrixXd walk(n, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j) walk(i, j) = static_cast<double>(std::min(i, j));
+    const std::vector<WalkedFit> fits = walked_fits(s.laws(Eigen::all, columns), s.rate);
     Fit fit;
-    fit.dof = static_cast<double>(n - laws.cols());
-    std::vector<Fit> fits;
-    std::vector<double> objectives;  // -2 log of the likelihood
-    for (double ratio = 0.0; ratio < 200.0; ratio = ratio == 0.0 ? 1e-4 : 3.0 * ratio) {
-        const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd::Identity(n, n) + ratio * walk);
-        const Eigen::MatrixXd a = root.matrixL().solve(laws);
-        const Eigen::VectorXd y = root.matrixL().solve(s.rate);
-        const Eigen::LLT<Eigen::MatrixXd> normal(a.transpose() * a);
-        const Eigen::VectorXd value = normal.solve(a.transpose() * y);
-        const double squares = (y - a * value).squaredNorm();
-        const Eigen::MatrixXd l = root.matrixL(), m = normal.matrixL();
-        const double objective = 2.0 * (l.diagonal().array().log().sum() + m.diagonal().array().log().sum()) +
-                                 fit.dof * std::log(std::max(squares, 1e-300));
-        // Laws that are nearly the same leave a pivot of rounding.
-        if (!std::isfinite(objective)) continue;
-        objectives.push_back(objective);
-        const Eigen::MatrixXd inverse = normal.solve(Eigen::MatrixXd::Identity(laws.cols(), laws.cols()));
-        fits.emplace_back();
-        fits.back().value(columns) = value;
-        fits.back().sigma(columns) = (inverse.diagonal() * (squares / fit.dof)).cwiseSqrt();
-    }
+    fit.dof = static_cast<double>(s.rate.size() - std::ssize(columns));
     if (fits.empty()) fit.sigma.setConstant(std::numeric_limits<double>::quiet_NaN());
-    if (fits.empty()) return fit;
-    const double least = *std::ranges::min_element(objectives);
-    double all = 0.0;
-    for (double& each : objectives) all += each = std::exp(0.5 * (least - each));
-    for (std::size_t k = 0; k < fits.size(); ++k) fit.value += objectives[k] / all * fits[k].value;
-    for (std::size_t k = 0; k < fits.size(); ++k)
-        fit.sigma += objectives[k] / all * (fits[k].sigma.cwiseAbs2() + (fits[k].value - fit.value).cwiseAbs2());
+    for (const WalkedFit& each : fits) fit.value(columns) += each.weight * each.value;
+    for (const WalkedFit& each : fits)
+        fit.sigma(columns) += each.weight * (each.variance + (each.value - fit.value(columns)).cwiseAbs2());
     fit.sigma = fit.sigma.cwiseSqrt();
     return fit;
 }

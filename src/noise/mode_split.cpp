@@ -128,6 +128,8 @@ void take_warming(ModeSplit& split) {
         split.fitted_magnetic = grown.coefficient[1];
         split.fitted_thermal = a;
         split.fitted_time_s = tau_s;
+        split.nonmagnetic_arcsec_s =
+            numeric::estimated(grown.coefficient[0], numeric::widened(sigma(grown, 0), n - 4.0));
     }
     const SegmentFit fit = fit_segments(s, laws_of(s, tau_s, a));
     if (!(std::abs(a) > min_bend_sigmas * sigma(fit, 2)) || !(sigma(fit, 3) < max_time_error * tau_s)) return;

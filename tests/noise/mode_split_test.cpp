@@ -53,6 +53,18 @@ TEST(ModeSplit, steady_growth_of_either_part_stays_with_it) {
     }
 }
 
+// Each segment of the one mode is earlier than its neighbour of the other: without the growth both parts would be off.
+TEST(ModeSplit, growth_too_straight_for_its_time_is_no_nonmagnetic_part) {
+    std::mt19937 engine(5);
+    std::normal_distribution<double> noise(0.0, 0.1);
+    const Gyro gyro(
+        10, [&](double t, int mode) { return 0.05 + mode * (0.7 + 4.0 * -std::expm1(-t / 4000.0)) + noise(engine); });
+    const ModeSplit split = split_modes(gyro.record(), 20);
+    EXPECT_FALSE(split.thermal_time_s.determined);
+    EXPECT_NEAR(split.nonmagnetic_arcsec_s.value, 0.05, 4.0 * split.nonmagnetic_arcsec_s.sigma);
+    EXPECT_LT(split.nonmagnetic_arcsec_s.sigma, 0.002);
+}
+
 TEST(ModeSplit, warming_is_found_within_its_error) {
     std::mt19937 engine(3);
     std::normal_distribution<double> noise(0.0, 1.4);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <vector>
 
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ struct Unit {
     double scale_ppm = 0.0, bend_ppm = 0.0;
     double warming = 0.0, warming_s = 100.0;
     double per_c = 0.0, per_mt = 0.0;
+    std::size_t order = 0;  // of the rates of the table: mixed, rising, up and down
     bool filtered = false;
     int fault = 0;  // 0: none
 };
@@ -61,11 +63,13 @@ void draw_limits(std::vector<Case>& cases, const Draws& draws, std::size_t bad) 
 Unit unit_of(const Draws& draws, int k) {
     Unit u;
     u.walk = draws.of("white").within_log(0.1, 10.0);
-    if (k % 2 == 0) u.rate_walk = u.walk * std::sqrt(3.0) / (static_cast<double>(n_samples) / 16.0);
+    // Where its Allan deviation crosses that of the white noise, in parts of the record.
+    if (k % 2 == 0) u.rate_walk = u.walk * std::sqrt(3.0) / (n_samples / draws.of("walk").within_log(8.0, 64.0));
     u.filtered = k % 3 == 0;
     u.bias = 50.0 * u.walk * draws.of("bias").within(-1.0, 1.0);
     u.scale_ppm = draws.of("scale").within(-500.0, 500.0);
     u.bend_ppm = u.walk * draws.of("bend").within_log(1.0, 100.0);
+    u.order = draws.of("order").below(3);
     u.warming = 10.0 * u.walk;
     u.warming_s = draws.of("warming").within(150.0, 900.0);
     u.per_c = u.walk * draws.of("temperature").within(-1.0, 1.0);
@@ -88,11 +92,15 @@ double settling_of(const Unit& u) {
 }
 
 std::vector<Case> cases_of(const Unit& u) {
-    // White noise of a stage, and what a walk over the table differs by from its mean.
-    const double n = n_samples, table_s = 1.0 * stage_s * n_stages, to_ppm = 1e6 / (3600.0 * largest_rate);
-    const double noise = std::sqrt(u.walk * u.walk / stage_s + u.rate_walk * u.rate_walk * table_s / 6.0);
-    const double bend = core::maths::hypot(u.bend_ppm, to_ppm * noise);
-    const double scale = bend * std::sqrt(3.0 * (n_stages - 1.0) / (n_stages + 1.0) / n_stages);
+    // White noise of a stage, and of a walk over the table, by the order of its rates, what is about the line and what
+    // its slope takes: with the covariance W of the stages tr(R W)/(n - 2) and a W a.
+    constexpr std::array about{0.1618, 0.0577, 0.1365}, in_slope{0.0022, 0.2850, 0.0710};
+    const double n = n_samples, to_ppm = 1e6 / (3600.0 * largest_rate);
+    const double walked = u.rate_walk * std::sqrt(1.0 * stage_s * n_stages);
+    const double white = core::maths::hypot(u.bend_ppm, to_ppm * u.walk / std::sqrt(1.0 * stage_s));
+    const double bend = core::maths::hypot(white, to_ppm * walked * std::sqrt(about.at(u.order)));
+    const double scale = core::maths::hypot(white * std::sqrt(3.0 * (n_stages - 1.0) / (n_stages + 1.0) / n_stages),
+                                            to_ppm * walked * std::sqrt(in_slope.at(u.order)));
     const double mean = std::sqrt(u.walk * u.walk / n + u.rate_walk * u.rate_walk * n / 3.0);
     const double slope = core::maths::hypot(0.5 * u.walk / std::sqrt(n), 0.03 * u.rate_walk * std::sqrt(n));
     std::vector<Case> cases{{"bias.deg_h", u.bias, mean, mean, false},
@@ -148,7 +156,8 @@ public:
         std::vector<double> rates, bends;
         Draw bend = draws.of("bends");
         for (int k = 0; k < n_stages; ++k) {
-            rates.push_back(largest_rate * (2.0 * (8 * k % n_stages) / (n_stages - 1) - 1.0));
+            const int at = std::array{8 * k % n_stages, k, std::min(2 * k, 2 * n_stages - 1 - 2 * k)}.at(u.order);
+            rates.push_back(largest_rate * (2.0 * at / (n_stages - 1) - 1.0));
             bends.push_back(3600.0 * (rates.back() * u.scale_ppm + largest_rate * u.bend_ppm * bend.normal()) * 1e-6);
             stages += fmt::format("{{ from_s = {}, to_s = {}, rate_deg_s = {} }}, ", stage_s * k, stage_s * (k + 1),
                                   rates.back());
@@ -185,7 +194,6 @@ public:
 
     [[nodiscard]] std::string path(const std::string& file) const { return at_ + "/" + file; }
 
-private:
     void add(const char* kind, const std::string& more, const std::vector<double>& rates) {
         const std::string file = fmt::format("{}.csv", n_logs_++);
         std::ofstream log{path(file)};
@@ -193,6 +201,7 @@ private:
         add_run(kind, file, "column = 1\ntime = \"none\"\nholds = \"rate\"\nunit = \"deg/h\"\nrate_hz = 1\n" + more);
     }
 
+private:
     std::string at_, plan_ = "[unit]\nserial = \"trial\"\n";
     int n_logs_ = 0;
 };
@@ -295,6 +304,31 @@ void own_trial(const AcceptCampaignTask& task, int k, AcceptCampaign& campaign) 
     score(folder.tested(cases), cases, " of own logs", campaign);
 }
 
+// White noise and flicker of the spectrum B^2/(2 pi f), by fractional differences of white noise (Kasdin, Proc. IEEE
+// 83, 1995) that began a record before; its floor is 1.5 to 3 times the white noise at 1/32 of the record.
+void flicker_trial(const AcceptCampaignTask& task, int k, AcceptCampaign& campaign) {
+    const auto trial = first_trial + static_cast<std::uint64_t>(k);
+    const Draws draws{task.seed, chance::Cause::noise_gyro, trial},
+        records{task.seed, chance::Cause::noise_record, trial};
+    const double white = draws.of("white").within_log(0.1, 10.0);
+    const double b = white * std::sqrt(32.0 / n_samples) * draws.of("floor").within(1.5, 3.0) / 0.664;
+    Draw noise = records.of("static"), before = records.of("flicker");
+    std::vector<double> response{1.0}, driving, rates;
+    for (double j = 1.0; j < 2.0 * n_samples; j += 1.0) response.push_back(response.back() * (j - 0.5) / j);
+    while (driving.size() < response.size()) {
+        driving.insert(driving.begin(), before.normal());
+        if (driving.size() > n_samples)
+            rates.push_back(white * noise.normal() +
+                            b * std::inner_product(driving.begin(), driving.end(), response.begin(), 0.0));
+    }
+    std::vector<Case> cases{{"bias_instability.deg_h", b, 0.1, 0.0, true},
+                            {"angle_random_walk.deg_sqrt_h", white / 60.0, 0.015, 0.0, true}};
+    draw_limits(cases, draws, 1);
+    Folder folder{task.folder};
+    folder.add("static", "", rates);
+    score(folder.tested(cases), cases, " with flicker", campaign);
+}
+
 // Whether so many wrong ones of n, or more, are no rarer than 1 in 1000 by the binomial law, summed from none on.
 bool keeps(int n, int wrong, double risk) {
     double term = 1.0, fewer = 0.0;
@@ -333,7 +367,8 @@ bool AcceptCampaign::is_good() const {
 
 AcceptCampaign run_accept_campaign(const AcceptCampaignTask& task) {
     AcceptCampaign campaign;
-    for (int k = 0; k < task.n_units; ++k) (k % 10 == 0 ? own_trial : foreign_trial)(task, k, campaign);
+    for (int k = 0; k < task.n_units; ++k)
+        (k % 10 == 0 ? own_trial : k % 10 == 5 ? flicker_trial : foreign_trial)(task, k, campaign);
     return campaign;
 }
 

@@ -42,9 +42,10 @@ struct AcceptCampaign {
     [[nodiscard]] bool is_good() const;
 };
 
-// One sample a second for an hour and more, white noise, every second unit with a rate random walk, every third with a
-// low pass; a rate table, a warming, a run over temperatures and three magnetic fields. The bias and one other quantity
-// are well within, near or well beyond their limits, the others well within. Every tenth static log is no measurement.
+// One sample a second for an hour and more, white noise, every second unit with a rate random walk that crosses it at
+// 1/64 to 1/8 of the record, every third with a low pass; a rate table whose rates are mixed, rise, or rise and fall, a
+// warming, a run over temperatures and three magnetic fields. The bias and one other quantity are well within, near or
+// well beyond their limits, the others well within. Every tenth static log is no measurement, every tenth has flicker.
 // Every tenth unit is a gyro of ours that switches, with limits of what only it has; every second of these warms.
 //
 // errors  those of acceptance::accept.
