@@ -118,16 +118,21 @@ private:
     }
 
     bool prove_one() {
-        while (const auto found = search_.next([&] { on_search(); }))
+        while (const auto found = search_.next([&] { on_search(); })) {
             if (prove(found->candidate, refuted_sigmas) && answer_.proof.share(limit_) >= r_.confidence) return true;
+            search_.fall_short(answer_.proof);
+        }
         return false;
     }
 
     double false_angle_arcsec(const Candidate& c) { return std::sqrt(forecast_.parts(c).alternating); }
 
-    // Of those with the least error by the closed forms, the one with the least on common gyros. Closed forms may have
-    // discarded what meets it; what only an even number of false angles lets meet it does not.
+    // The first of those with the least error by the closed forms that gyros do not contradict; where much of it is the
+    // magnetic drift, or they contradict all, the one with the least on common gyros. Closed forms may have discarded
+    // what meets it; what only an even number of false angles lets meet it does not. A proof that went to its end is
+    // not repeated.
     bool prove_the_best() {
+        if (static_cast<std::int64_t>(answer_.proof.trials.size()) == r_.gyros) return false;
         const Tester tester{task_, common_};
         std::optional<Candidate> best;
         double least = std::numeric_limits<double>::infinity();
@@ -139,6 +144,11 @@ private:
             if (best && kept >= least) continue;
             best = c;
             least = kept;
+            const Parts parts = forecast_.parts(c);
+            const double off = e.rms_arcsec() * e.rms_arcsec() / parts.sum() - 1.0;
+            if (std::isfinite(kept) && off <= refuted_sigmas * mean_square_error(best_gyros) &&
+                parts.magnetic <= mean_square_error(r_.gyros) * parts.sum())
+                break;
         }
         prove(*best, std::numeric_limits<double>::infinity());
         return answer_.proof.share(limit_) >= r_.confidence && false_angle_arcsec(*best) <= limit_;

@@ -143,8 +143,8 @@ Need need_of(const Task& task, const Candidate& candidate, const Constant& const
                                     fmt::join(need.keys, " and "), nearest->trials.met(limit), need.tried);
         need.sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(need.sentence.front())));
     } else {
-        need.sentence =
-            fmt::format("No change of {} alone is enough, down or up to {:.0f} times.", constant.name, furthest);
+        need.sentence = fmt::format("With this method no change of {} alone is enough, down or up to {:.0f} times.",
+                                    constant.name, furthest);
     }
     return need;
 }

@@ -11,10 +11,9 @@
 namespace zlg::choice {
 namespace {
 
-constexpr std::size_t pool_size = 4;
-constexpr std::array<std::int64_t, 2> first_rounds{8, 16};
-constexpr std::array<std::int64_t, 2> last_rounds{64, 128};
+constexpr std::array<std::int64_t, 4> rounds{8, 16, 64, 128};
 constexpr double hopeless_sigmas = 2.0;
+constexpr double believed_sigmas = 2.0;  // of the share by which trials may be off the closed forms
 // A switch may leave this much less than its short trial says, before the closed form discards.
 constexpr double hopeful_ratio = 0.75;
 
@@ -42,6 +41,8 @@ double sigma_of_share(std::int64_t k, std::int64_t n) {
     const double a = static_cast<double>(k) + 1.0, b = static_cast<double>(n - k) + 1.0;
     return std::sqrt(a * b / (a + b + 1.0)) / (a + b);
 }
+
+double mean_square_error(std::int64_t n) { return std::sqrt(2.0 / static_cast<double>(n)); }
 
 config::Fidelity fidelity_of(const Requirement& requirement) {
     const config::Config& base = requirement.base;
@@ -74,56 +75,43 @@ bool Tester::extend(Evaluation& e, std::int64_t gyros, double sigmas, const std:
 Search::Search(const Task& task, Forecast& forecast, const Population& population)
     : task_{task}, forecast_{forecast}, tester_{task, population}, methods_{methods(task.requirement)} {}
 
-// The next candidates that the closed forms leave, in the order of simplicity.
-std::vector<Evaluation> Search::pool() {
-    std::vector<Evaluation> next;
-    while (next.size() < pool_size) {
-        if (waiting_.empty()) {
-            if (method_ == methods_.all.size()) break;
+// The next candidate that the closed forms leave, in the order of simplicity.
+std::optional<Candidate> Search::pop() {
+    while (true) {
+        while (waiting_.empty()) {
+            if (method_ == methods_.all.size()) return std::nullopt;
             waiting_ = candidates(task_.requirement, methods_.all[method_++]);
-            std::erase_if(waiting_, [&](const Candidate& c) {
-                return forecast_.chance(c, hopeful_ratio) < task_.requirement.confidence;
-            });
             std::ranges::reverse(waiting_);
-            continue;
         }
-        next.push_back({waiting_.back(), {}});
+        const Candidate c = waiting_.back();
         waiting_.pop_back();
+        if (forecast_.chance(c, hopeful_ratio) >= least_chance_) return c;
     }
-    return next;
-}
-
-// A pool through the first rounds; those that pass wait for the last.
-void Search::refill(const std::function<void()>& on_gyro) {
-    std::vector<Evaluation> left = pool();
-    for (const std::int64_t n : first_rounds) {
-        std::vector<Evaluation> passed;
-        for (Evaluation& e : left)
-            (tester_.extend(e, std::min(n, task_.requirement.gyros), hopeless_sigmas, on_gyro) ? passed : tried_)
-                .push_back(std::move(e));
-        left = std::move(passed);
-    }
-    promising_.assign(left.rbegin(), left.rend());
 }
 
 std::optional<Evaluation> Search::next(const std::function<void()>& on_gyro) {
-    while (true) {
-        while (promising_.empty() && (method_ < methods_.all.size() || !waiting_.empty())) refill(on_gyro);
-        if (promising_.empty()) return std::nullopt;
-        Evaluation e = std::move(promising_.back());
-        promising_.pop_back();
-        bool is_left = true;
-        for (const std::int64_t n : last_rounds)
-            is_left = is_left && tester_.extend(e, std::min(n, task_.requirement.gyros), hopeless_sigmas, on_gyro);
+    while (const std::optional<Candidate> c = pop()) {
+        Evaluation e{*c, {}};
+        const bool is_left = std::ranges::all_of(rounds, [&](std::int64_t n) {
+            return tester_.extend(e, std::min(n, task_.requirement.gyros), hopeless_sigmas, on_gyro);
+        });
         tried_.push_back(e);
         if (is_left && e.share(task_.requirement.limit_arcsec()) >= task_.requirement.confidence) return e;
+        fall_short(e);
     }
+    return std::nullopt;
+}
+
+void Search::fall_short(const Evaluation& e) {
+    const Requirement& r = task_.requirement;
+    const auto n = static_cast<double>(e.trials.size());
+    const double told = forecast_.chance(e.candidate), off = std::abs(e.share(r.limit_arcsec()) - told);
+    if (off > believed_sigmas * std::sqrt(told * (1.0 - told) / n)) return;
+    const double gyros = static_cast<double>(r.gyros);
+    least_chance_ = std::max(least_chance_, told + std::sqrt(r.confidence * (1.0 - r.confidence) / gyros));
 }
 
 std::optional<Evaluation> Search::runner_up(const Method& chosen) {
-    const auto passed = std::find_if(promising_.rbegin(), promising_.rend(),
-                                     [&](const Evaluation& e) { return !(e.candidate.method == chosen); });
-    if (passed != promising_.rend()) return *passed;
     for (int trials = 0; method_ < methods_.all.size() && trials < 4; ++method_) {
         for (const Candidate& c : candidates(task_.requirement, methods_.all[method_])) {
             if (c.method == chosen || forecast_.chance(c) < task_.requirement.confidence) continue;
@@ -137,18 +125,15 @@ std::optional<Evaluation> Search::runner_up(const Method& chosen) {
 }
 
 std::vector<Candidate> Search::best(std::size_t n) {
-    std::vector<std::pair<double, Candidate>> ranked;
+    std::vector<std::pair<double, Candidate>> all;
     for (const Method& method : methods_.all)
-        for (const Candidate& c : candidates(task_.requirement, method))
-            ranked.emplace_back(forecast_.parts(c).sum(), c);
-    std::ranges::stable_sort(ranked, {}, &std::pair<double, Candidate>::first);
+        for (const Candidate& c : candidates(task_.requirement, method)) all.emplace_back(forecast_.parts(c).sum(), c);
+    const double least = std::ranges::min(all, {}, &std::pair<double, Candidate>::first).first;
     std::vector<Candidate> found;
-    for (std::size_t k = 0; k < ranked.size() && found.size() < n; ++k) {
-        // One interval of each method: neighbours would fill the list.
-        const Method& m = ranked[k].second.method;
-        if (std::ranges::none_of(found, [&](const Candidate& c) { return c.method == m; }))
-            found.push_back(ranked[k].second);
-    }
+    for (const auto& [sum, c] : all)
+        if (found.size() < n && sum <= least * (1.0 + mean_square_error(task_.requirement.gyros)) &&
+            (found.empty() || !(found.back().method == c.method)))
+            found.push_back(c);
     return found;
 }
 

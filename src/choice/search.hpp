@@ -10,6 +10,9 @@ namespace zlg::choice {
 // Of the gyros of a proof, numbered from 1, that no other step has seen.
 [[nodiscard]] std::uint64_t proof_seed(std::uint64_t seed, std::uint64_t proof);
 
+// Relative standard deviation of the mean square of n normal deviates: what so many gyros cannot tell apart.
+[[nodiscard]] double mean_square_error(std::int64_t n);
+
 // By which a gyro is tried: events, where the requirement does not ask for another.
 [[nodiscard]] config::Fidelity fidelity_of(const Requirement& requirement);
 
@@ -30,7 +33,7 @@ private:
     const Population& population_;
 };
 
-// Walks through the candidates: a pool at a time through the first rounds, one by one through the last.
+// Walks through the candidates, each through rounds of more and more gyros.
 class Search {
 public:
     // forecast, population  outlive it.
@@ -42,25 +45,29 @@ public:
     [[nodiscard]] const std::vector<Evaluation>& tried() const { return tried_; }
     [[nodiscard]] const Methods& all() const { return methods_; }
 
-    // After a choice: the next in order that passed the first rounds, or that the closed forms believe in and 32 gyros
-    // do not refute; not of the same method.
+    // Where a candidate falls short just as the closed forms say, those fall short too that they hold to be better by
+    // less than the standard deviation of a proof: left out from then on.
+    void fall_short(const Evaluation& evaluation);
+
+    // After a choice: the next in order that the closed forms believe in and 32 gyros do not refute; not of the same
+    // method.
     [[nodiscard]] std::optional<Evaluation> runner_up(const Method& chosen);
 
-    // The candidates with the least error by the closed forms, the best first.
+    // The candidates with the least error by the closed forms as far as the gyros of a proof tell errors apart, the
+    // simplest first, one of each method.
     [[nodiscard]] std::vector<Candidate> best(std::size_t n);
 
 private:
-    [[nodiscard]] std::vector<Evaluation> pool();
-    void refill(const std::function<void()>& on_gyro);
+    [[nodiscard]] std::optional<Candidate> pop();
 
     const Task& task_;
     Forecast& forecast_;
     Tester tester_;
     Methods methods_;
-    std::size_t method_ = 0;             // the next that no pool has had
-    std::vector<Candidate> waiting_;     // of the methods begun, last first
-    std::vector<Evaluation> promising_;  // last first
+    std::size_t method_ = 0;          // the next to begin
+    std::vector<Candidate> waiting_;  // of the method begun, last first
     std::vector<Evaluation> tried_;
+    double least_chance_ = task_.requirement.confidence;  // by the closed forms, of what is tried
 };
 
 }  // namespace zlg::choice

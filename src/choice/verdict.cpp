@@ -130,7 +130,8 @@ std::vector<std::string> reasons_of(const Requirement& r, const std::vector<std:
         all.push_back("Half of the gyros or more are none by the tolerances, whatever is chosen: nothing was tried.");
     } else {
         all.push_back(
-            "Of all methods and intervals this one leaves the least error, by the closed forms and by trials.");
+            "No method and interval leaves an error that these gyros could tell to be less, by the closed forms and by "
+            "trials.");
     }
     all.push_back("The perimeter loop and its constants are the gyro's: it settles within the corrected ticks.");
     all.insert(all.end(), excluded.begin(), excluded.end());
