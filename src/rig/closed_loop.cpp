@@ -114,15 +114,16 @@ std::optional<Leap> ClosedLoop::leap(std::int64_t most_halves, std::int64_t long
         learn_ticks_ = has_leapt_ ? plan_->learn_ticks : first_lessons * plan_->learn_ticks;
         has_leapt_ = true;
     }
-    const bool singly = plan_->all_singly || quiet <= learn_ticks_;
-    std::int64_t ticks = std::min(singly ? std::min(quiet, most_single_ticks) : quiet - learn_ticks_,
-                                  std::max(piece_ticks_, least_ticks));
+    const bool learns = quiet <= learn_ticks_, singly = plan_->all_singly || learns;
+    std::int64_t ticks = std::min(learns ? quiet : quiet - learn_ticks_, std::max(piece_ticks_, least_ticks));
+    if (singly) ticks = std::min(ticks, most_single_ticks);
     ticks = std::min({ticks, twin_.even_halves() / 2, std::max(longest_ticks, least_ticks)});
     const core::PiezoRange& range = control_config_.loop.range;
     // The warming moves the piezo in one direction: where it ends, it is nearest to an end of the range.
     while (ticks > 0 && near_end(range, core::Volts{twin_.voltage_after(2 * ticks)})) ticks /= 2;
     if (ticks < least_ticks) return {};
-    const Leap made = leap_of(twin_.leap(2 * ticks, {.singly = singly, .noise = plan_->noise}), last_);
+    Leap made = leap_of(twin_.leap(2 * ticks, {.singly = singly, .noise = plan_->noise}), last_);
+    made.learns = learns;
     rig::leap(control_config_, control_state_, made);
     if (adviser_) adviser_->leap(made);
     for (double& v : actuator_.set_point_v) v += made.set_point_v;

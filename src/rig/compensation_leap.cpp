@@ -67,7 +67,7 @@ void learn(core::GapBridgeState& bridge, std::int64_t tick, const TickAngles& an
 double pass_singly(const core::GyroCompensationConfig& c, core::GyroCompensationState& s, const Leap& leap,
                    bool follows_drift) {
     HalfReader reader{c, s, leap};
-    const bool is_learnt = learns(c, s);
+    const bool is_learnt = leap.learns && learns(c, s);
     double subtracted = 0.0;
     std::int64_t tick = s.bridge.next_tick;
     for (std::size_t k = 0; k + 1 < leap.half.size(); k += 2, ++tick) {
@@ -84,10 +84,10 @@ double pass_singly(const core::GyroCompensationConfig& c, core::GyroCompensation
     return subtracted;
 }
 
-// What is learnt of the motion ends where a leap is not told half by half.
+// What is learnt of the motion ends where it is not learnt in a leap.
 void pass_clock(core::GapBridgeState& bridge, const Leap& leap) {
     core::LearntMotion& motion = bridge.background.motion;
-    if (leap.half.empty()) {
+    if (leap.half.empty() || !leap.learns) {
         if (motion.moments.length > 0) add(motion, 2 * bridge.next_tick, false, 0.0, core::forget_ticks);
         bridge.spread.goes_on = false;
     }

@@ -23,7 +23,7 @@ struct LeapPlan {
     std::int64_t after_ticks = 0;   // in a row, closed and valid, before the first leap
     std::int64_t before_ticks = 0;  // before the next event
     std::int64_t learn_ticks = 0;   // and before those so many are told half by half: compensation learns the motion
-    bool all_singly = false;        // all are
+    bool all_singly = false;        // all are told, for the drift is followed
     twin::DetuningNoise noise{};    // of a digital loop
 };
 
@@ -58,6 +58,7 @@ struct Leap : twin::Leap {
     std::int32_t parts = 0;      // of a count beyond the counts: 1/65536
     std::int32_t end_parts = 0;  // by phase the place at its end, 0..65535
     bool has_place = false;
+    bool learns = true;  // the motion, of halves that are told
 
     [[nodiscard]] std::int64_t ticks() const { return halves / 2; }
 };
