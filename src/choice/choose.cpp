@@ -129,14 +129,18 @@ private:
 
     // The first of those with the least error by the closed forms that gyros do not contradict; where much of it is the
     // magnetic drift, or they contradict all, the one with the least on common gyros. Closed forms may have discarded
-    // what meets it; what only an even number of false angles lets meet it does not. A proof that went to its end is
-    // not repeated.
+    // what meets it; what only an even number of false angles lets meet it does not. A proof of such a one that went
+    // to its end is not repeated.
     bool prove_the_best() {
-        if (static_cast<std::int64_t>(answer_.proof.trials.size()) == r_.gyros) return false;
+        const std::vector<Candidate> all = search_.best(n_best);
+        const auto told = [&](const Candidate& c) { return forecast_.parts(c).sum(); };
+        if (static_cast<std::int64_t>(answer_.proof.trials.size()) == r_.gyros &&
+            told(answer_.proof.candidate) <= told(*std::ranges::max_element(all, {}, told)))
+            return false;
         const Tester tester{task_, common_};
         std::optional<Candidate> best;
         double least = std::numeric_limits<double>::infinity();
-        for (const Candidate& c : search_.best(n_best)) {
+        for (const Candidate& c : all) {
             Evaluation e{c, {}};
             tester.extend(e, std::min(best_gyros, r_.gyros), std::numeric_limits<double>::infinity(),
                           [&] { on_search(); });

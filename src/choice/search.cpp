@@ -107,8 +107,9 @@ void Search::fall_short(const Evaluation& e) {
     const auto n = static_cast<double>(e.trials.size());
     const double told = forecast_.chance(e.candidate), off = std::abs(e.share(r.limit_arcsec()) - told);
     if (off > believed_sigmas * std::sqrt(told * (1.0 - told) / n)) return;
-    const double gyros = static_cast<double>(r.gyros);
-    least_chance_ = std::max(least_chance_, told + std::sqrt(r.confidence * (1.0 - r.confidence) / gyros));
+    // At most half of what is left to certainty, which few gyros could never tell.
+    const double told_apart = std::sqrt(r.confidence * (1.0 - r.confidence) / static_cast<double>(r.gyros));
+    least_chance_ = std::max(least_chance_, told + std::min(told_apart, 0.5 * (1.0 - told)));
 }
 
 std::optional<Evaluation> Search::runner_up(const Method& chosen) {

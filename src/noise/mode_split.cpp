@@ -123,17 +123,17 @@ void take_warming(ModeSplit& split) {
     const double a = grown.coefficient[2];
     if (a == 0.0) return;
     // To be taken out a growth need not bend: it is better than none where less is left for each degree of freedom.
-    const auto n = static_cast<double>(s.size());
-    if (grown.residual / (n - 4.0) < fit_segments(s, laws_of(s, 0.0, 0.0)).residual / (n - 2.0)) {
+    // Its time was found too, and leaves one degree of freedom less than the three laws do.
+    const double dof = static_cast<double>(s.size()) - 4.0;
+    if (grown.residual / dof < fit_segments(s, laws_of(s, 0.0, 0.0)).residual / (dof + 2.0)) {
         split.fitted_magnetic = grown.coefficient[1];
         split.fitted_thermal = a;
         split.fitted_time_s = tau_s;
-        split.nonmagnetic_arcsec_s =
-            numeric::estimated(grown.coefficient[0], numeric::widened(sigma(grown, 0), n - 4.0));
+        const double error = numeric::widened(sigma(grown, 0) * std::sqrt((dof + 1.0) / dof), dof);
+        if (std::isfinite(error)) split.nonmagnetic_arcsec_s = numeric::estimated(grown.coefficient[0], error);
     }
     const SegmentFit fit = fit_segments(s, laws_of(s, tau_s, a));
     if (!(std::abs(a) > min_bend_sigmas * sigma(fit, 2)) || !(sigma(fit, 3) < max_time_error * tau_s)) return;
-    const double dof = static_cast<double>(s.size()) - 4.0;
     split.nonmagnetic_arcsec_s = numeric::estimated(fit.coefficient[0], numeric::widened(sigma(fit, 0), dof));
     split.magnetic_arcsec_s = numeric::estimated(fit.coefficient[1], numeric::widened(sigma(fit, 1), dof));
     split.magnetic_thermal_arcsec_s = numeric::estimated(fit.coefficient[2], numeric::widened(sigma(fit, 2), dof));

@@ -162,6 +162,24 @@ TEST(Search, what_is_no_better_than_one_that_fell_short_as_told_is_left_out) {
     EXPECT_TRUE(left_after(60)) << "the closed forms are wrong, and say nothing of the others";
 }
 
+TEST(Search, few_gyros_that_fall_short_leave_out_nothing_that_is_nearly_certain) {
+    Requirement r = of_walk_alone(10.0, 20);
+    r.base.gyro.scale_arcsec = 10.0;
+    r.base.drift.random_walk_arcsec_sqrt_s = 0.4;
+    r.confidence = 0.95;
+    const Task task{.requirement = r, .threads = 1};
+    const Population gyros{r, 3, 128};
+    Forecast forecast{gyros, 1, {}};
+    Search search{task, forecast, gyros};
+    Evaluation short_of_it{{.method = methods(r).all.front(), .interval_s = 40.0}, {}};
+    const double told = forecast.chance(short_of_it.candidate);
+    ASSERT_GT(told + std::sqrt(0.95 * 0.05 / 20.0), 1.0);
+    for (int k = 0; k < 100; ++k)
+        short_of_it.trials.push_back({.state = TrialState::good, .error_arcsec = k < 100.0 * told ? 0.0 : 1e9});
+    search.fall_short(short_of_it);
+    EXPECT_TRUE(search.next({}).has_value());
+}
+
 TEST(Choose, each_proof_has_gyros_of_its_own) {
     // Readings that differ by whole counts, 10 arcsec, keep 11.9 arcsec in a share that the closed forms do not know,
     // so that one that falls short says nothing of the next.

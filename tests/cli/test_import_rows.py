@@ -32,6 +32,13 @@ class Rows(Foreign):
     def assert_turns_of(self, log, there):
         numpy.testing.assert_allclose(numpy.array(log.dtheta)[there], self.w[there] * self.ARCSEC / 100, rtol=1e-12)
 
+    def test_rows_of_a_mode_are_not_those_of_others(self):
+        modes = numpy.where(numpy.arange(self.N) % 200 < 100, 1, -1)
+        rows = "".join(("" if k % 50 else f"{k / 100 - 0.001:.3f},,{modes[k]}\n") + f"{k / 100:.3f},{w:.17g},\n" for k, w in enumerate(self.w))
+        path = self.write("m.csv", "time_s,gyro [rad/s],mode\n" + rows)
+        result = run("import", path, *self.SAID, "--map", "axis=2", "--map", "mode=3", "--out", self.folder / "o.csv")
+        self.assertNotIn("are left out", result.stderr)
+
     def test_a_status_beside_samples_that_are_missing_takes_none_out(self):
         lost = {100, 101, 102, 700}
         rows = "".join(f"{k / 100:.2f},{'' if k in lost else format(self.w[k], '.17g')},{17 if k in lost else ''}\n" for k in range(self.N))
@@ -42,6 +49,9 @@ class Rows(Foreign):
         clock = [f"{120000 + k / 10 if k < 600 else 120100 + (k - 600) / 10:.1f}" for k in range(self.N)]
         path = self.write("c.csv", "utc,gz\n" + "".join(f"{t},{w:.9f}\n" for t, w in zip(clock, self.w)))
         self.refuse(3, "import", path, *self.SAID, "--out", self.folder / "o.csv", says=("120059.9", "120100", "--map time=none", "rate_hz"))
+        epoch = [f"{1700000000 + k / 10 + (40.1 if k >= 600 else 0):.1f}" for k in range(self.N)]
+        path = self.write("e.csv", "utc,gz\n" + "".join(f"{t},{w:.9f}\n" for t, w in zip(epoch, self.w)))
+        self.angles(path, *self.SAID, rows=self.N + 401)
         seconds = [k / 10 if k < 600 else 100 + (k - 600) / 10 for k in range(self.N)]
         path = self.write("s.csv", "utc,gz\n" + "".join(f"{t:.1f},{w:.9f}\n" for t, w in zip(seconds, self.w)))
         self.angles(path, *self.SAID, rows=self.N + 400)
@@ -91,7 +101,7 @@ class Rows(Foreign):
         for first, noted in (("100\n", True), ("", False)):
             path = self.write("n.txt", first + "".join(f"{w:.9f}\n" for w in self.w))
             result = run("import", path, *said, "--out", self.folder / "o.csv", "--force")
-            self.assertEqual((result.returncode, "the first is row 1, 100" in result.stderr), (0, noted))
+            self.assertEqual((result.returncode, "the first row, 100, is" in result.stderr), (0, noted))
 
     def test_whole_numbers_and_words_by_turns_are_noted(self):
         rows = "".join(f"{k / 100:.2f},{'AB'[k % 2]},{n}\n" for k, n in enumerate(self.rng.integers(-50, 50, self.N)))

@@ -65,6 +65,16 @@ TEST(ModeSplit, growth_too_straight_for_its_time_is_no_nonmagnetic_part) {
     EXPECT_LT(split.nonmagnetic_arcsec_s.sigma, 0.002);
 }
 
+// A growth and its time leave two degrees of freedom of six segments: no finite error.
+TEST(ModeSplit, few_segments_have_a_nonmagnetic_part_too) {
+    for (unsigned seed = 1; seed < 40; ++seed) {
+        std::mt19937 engine(seed);
+        std::normal_distribution<double> noise(0.0, 0.1);
+        const Gyro gyro(6, [&](double, int mode) { return 0.05 + 0.7 * mode + noise(engine); });
+        EXPECT_TRUE(split_modes(gyro.record(), 20).nonmagnetic_arcsec_s.determined);
+    }
+}
+
 TEST(ModeSplit, warming_is_found_within_its_error) {
     std::mt19937 engine(3);
     std::normal_distribution<double> noise(0.0, 1.4);

@@ -94,7 +94,7 @@ double settling_of(const Unit& u) {
 std::vector<Case> cases_of(const Unit& u) {
     // White noise of a stage, and of a walk over the table, by the order of its rates, what is about the line and what
     // its slope takes: with the covariance W of the stages tr(R W)/(n - 2) and a W a.
-    constexpr std::array about{0.1618, 0.0577, 0.1365}, in_slope{0.0022, 0.2850, 0.0710};
+    constexpr std::array about{0.1699, 0.0659, 0.1446}, in_slope{0.0028, 0.2856, 0.0716};
     const double n = n_samples, to_ppm = 1e6 / (3600.0 * largest_rate);
     const double walked = u.rate_walk * std::sqrt(1.0 * stage_s * n_stages);
     const double white = core::maths::hypot(u.bend_ppm, to_ppm * u.walk / std::sqrt(1.0 * stage_s));

@@ -149,6 +149,7 @@ bool holds_rows_of_others(const ForeignLook& look) {
     if (std::ranges::count(is_empty, false) == 0) return false;
     std::vector<bool> is_of_another(is_empty.size());
     for (const ForeignColumn& column : look.table.columns) {
+        if (is_said(column, look.table, look.mapping)) continue;
         const auto is_here = [&](std::size_t k) { return k < column.values.size() && !std::isnan(column.values[k]); };
         bool is_other = true;
         for (std::size_t k = 0; k < is_empty.size(); ++k) is_other = is_other && (is_empty[k] || !is_here(k));

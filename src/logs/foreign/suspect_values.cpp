@@ -286,9 +286,8 @@ std::string spikes_of(const Values& values, const std::string& what) {
         }
         return k;
     };
-    // A number above the table, such as its rate, is taken for the first row.
     const auto jumps = [&](std::size_t k) { return std::fabs(values[k] - values[k - 1]) > least; };
-    std::size_t n = values.size() > 2 && jumps(1) && !jumps(2) ? 1 : 0, first = 0;
+    std::size_t n = 0, first = 0;
     for (std::size_t k = 1; k < values.size(); ++k) {
         if (!jumps(k)) continue;
         const std::size_t to = back(k);
@@ -296,6 +295,10 @@ std::string spikes_of(const Values& values, const std::string& what) {
         n += to - k;
         k = std::max(k, to);
     }
+    // A number above the table, such as its rate, is taken for the first row.
+    if (n == 0 && values.size() > 2 && jumps(1) && !jumps(2))
+        return fmt::format("{}: the first row, {}, is more than {:g} usual steps from the next ones", what, values[0],
+                           far);
     if (n == 0) return {};
     return fmt::format("{}: {} row{} jump{} away by more than {:g} usual steps and back, the first is row {}, {}", what,
                        n, n == 1 ? "" : "s", n == 1 ? "s" : "", far, first + 1, values[first]);

@@ -89,9 +89,10 @@ std::vector<std::string> settle_times(TextTable& read) {
 
 void refuse_clock_digits(const TextColumn& times, const RowTimes& found, const std::string& path) {
     // One full minute may be a cut at round seconds, unless hours stand before it.
-    constexpr double with_hours = 10000.0;
+    constexpr double with_hours = 10000.0, of_a_day = 240000.0;
     constexpr double hidden_s = 40.0;  // from 59 to 100
-    const std::size_t fewest = times.values.front() < with_hours ? 2 : 1;
+    const double first = times.values.front();
+    const std::size_t fewest = first < with_hours || first >= of_a_day ? 2 : 1;
     if (found.holes.size() < fewest || times.holds_dates || found.step >= hidden_s) return;
     const bool are_minutes = std::ranges::all_of(found.holes, [&](const Hole& hole) {
         const double before = std::fmod(times.values[hole.row], 100.0), after = times.values[hole.row + 1];
