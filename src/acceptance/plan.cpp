@@ -156,6 +156,8 @@ Run run_of(const At& at, const Unit& unit) {
     if (run.files.empty()) at.fail("files is missing: a run needs its logs");
     // A word that is no direction is the column of a file of another program.
     if (axis && !earth_about({.latitude_deg = 0.0}, run.axis) && !run.mapping.has("axis")) map_to(run, *axis, "axis");
+    if (axis && !unit.latitude_deg && earth_about({.latitude_deg = 45.0}, run.axis).value_or(0.0) != 0.0)
+        axis->fail("the Earth's rotation about it needs latitude_deg of [unit]");
     if (unit.scale_arcsec && !run.mapping.has("scale_arcsec") &&
         (run.mapping.has("counts") || run.mapping.text("unit").starts_with("count")))
         run.mapping.set("scale_arcsec", fmt::format("{}", *unit.scale_arcsec), at.place());

@@ -103,7 +103,11 @@ report::Table budget_table(const Answer& a) {
 }
 
 std::string model_sentence(const Requirement& r) {
-    const auto is_given = [&](const char* key) { return config::is_given(r.base, key); };
+    const auto is_given = [&](const std::string& key) {
+        return config::is_given(r.base, key) || std::ranges::any_of(r.tolerance, [&](const sweep::Parameter& p) {
+                   return std::ranges::find(p.keys, key) != p.keys.end();
+               });
+    };
     std::string given, presumed;
     for (const char* key : {"perimeter.miss_lambda", "gyro.light_noise_lambda", "drift.magnetic_arcsec_s",
                             "drift.magnetic_thermal_arcsec_s", "drift.thermal_time_s",

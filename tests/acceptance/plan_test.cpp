@@ -57,6 +57,7 @@ TEST(Plan, what_is_wrong_is_named) {
     expect_refused(unit + "[[run]]\nfiles = []\nkind = 'static'\n", "names of files");
     expect_refused(unit + "[[run]]\nfiles = ['a']\nkind = 'still'\n", "'still'; allowed is static, rate_table");
     expect_refused(unit + run + "colour = 'red'\n", "colour");
+    expect_refused(unit + run + "axis = 'up'\n", "needs latitude_deg");
     expect_refused(unit + run + "[limit]\n", "unknown section");
     expect_refused(unit + run + "[limits]\n'bias.deg_s' = { max = 1 }\n", "given in deg/h");
     expect_refused(unit + run + "[limits]\n'bias.deg_h' = { max = 1, min = 2 }\n", "is above max");

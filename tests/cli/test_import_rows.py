@@ -70,6 +70,23 @@ class Rows(Foreign):
         there = numpy.sort(self.rng.permutation(self.N + 40)[:self.N])  # by chance they are missing
         self.assertEqual(self.mean(self.stamped(k, there))[1]["known"], self.N)
 
+    def test_seconds_since_1970_that_are_rounded_to_milliseconds(self):
+        for rate in (700, 800, 909):
+            rows = "".join(f"{1764384000 + k / rate:.3f},{w:.17g}\n" for k, w in enumerate(self.w))
+            log = self.angles(self.write("u.csv", "time_s,gyro [rad/s]\n" + rows), *self.SAID, rows=self.N)
+            numpy.testing.assert_allclose(log.dtheta, self.w * self.ARCSEC / rate, rtol=2e-3 * rate / self.N)  # a millisecond at each end
+
+    def test_stamps_that_scatter_beside_holes_keep_the_length_of_a_row(self):
+        for seed in range(4):
+            rng = numpy.random.default_rng(seed)
+            there = numpy.ones(self.N, bool)
+            for first in rng.integers(20, self.N - 40, 3):
+                there[first:first + 8] = False
+            stamps = numpy.arange(self.N) / 25 + rng.uniform(-0.008, 0.008, self.N)
+            rows = "".join(f"{stamps[k]:.4f},{self.w[k]:.17g}\n" for k in numpy.flatnonzero(there))
+            log = self.angles(self.write("j.csv", "time_s,gyro [rad/s]\n" + rows), *self.SAID, rows=self.N)
+            numpy.testing.assert_allclose(numpy.array(log.dtheta)[there], self.w[there] * self.ARCSEC / 25, rtol=0.4 / self.N)
+
     def stamped(self, rows, stamps):
         return self.write("t.csv", "t_ms,gyro [rad/s]\n" + "".join(f"{t:.0f},{self.w[k]:.9f}\n" for k, t in zip(rows, stamps)))
 

@@ -133,7 +133,11 @@ struct Place {
 
 Place coarse_place(const LongColumn& t, double step) {
     double digit = std::pow(10.0, std::floor(std::log10(step) + 1e-9));
-    const auto is_place = [&](double v) { return std::fabs(v / digit - std::round(v / digit)) < 1e-4; };
+    // As far as a number near 1.7e9 s tells a millisecond.
+    const auto is_place = [&](double v) {
+        return std::fabs(v / digit - std::round(v / digit)) <
+               1e-4 + std::fabs(v) * std::numeric_limits<double>::epsilon() / digit;
+    };
     while (digit > 1e-3 * step && !std::ranges::all_of(t, is_place)) digit /= 10.0;
     if (digit > 0.2 * step) return {digit, true, 0.0};
     if (digit <= 1e-3 * step) digit = 0.0;

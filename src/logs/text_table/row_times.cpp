@@ -127,6 +127,11 @@ std::optional<RowTimes> row_times(const TextColumn& column, const std::string& p
         hole.n_missing = std::max<std::int64_t>(static_cast<std::int64_t>(n), 1);
         times.n_missing = std::min(times.n_missing + hole.n_missing, most_missing);
     }
+    // Over the holes too, where these are whole numbers of rows as far as the stamps tell: their scatter is that of the
+    // two ends then, and not of each stretch between two holes.
+    const double whole = span / (static_cast<double>(steps.size()) + static_cast<double>(times.n_missing));
+    if (!times.holes.empty() && std::fabs(whole - times.step) <= (times.tolerance - 1e-3) * times.step)
+        times.step = whole;
     return times;
 }
 
