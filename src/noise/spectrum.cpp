@@ -17,6 +17,8 @@
 namespace zlg::noise {
 namespace {
 
+constexpr std::size_t max_samples_at_work = std::size_t{1} << 19;
+
 // The least length from n on that has no prime factor over 5.
 std::size_t quick_length(std::size_t n) {
     for (;; ++n) {
@@ -57,6 +59,7 @@ public:
                 1.0 - std::cos(2.0 * std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(length_)));
     }
 
+    [[nodiscard]] std::size_t length() const { return length_; }
     [[nodiscard]] std::size_t count() const { return (rates_.size() - length_) / step() + 1; }
     [[nodiscard]] std::size_t step() const { return std::max<std::size_t>(1, length_ / 2); }
     [[nodiscard]] double middle_s(std::size_t p) const {
@@ -112,7 +115,9 @@ Spectrum welch_spectrum(std::span<const double> rates, double rate_hz, std::size
     Spectrum mean{.frequency_hz = pieces.frequencies(), .density = {}};
     mean.density.assign(mean.frequency_hz.size(), 0.0);
     // So many pieces at a time, added up in their order: the sum is the same on any number of threads.
-    const std::size_t together = static_cast<std::size_t>(std::max(threads, 1));
+    // A piece at work holds some 40 bytes a sample, so that the longest are one at a time.
+    const std::size_t at_work = std::max<std::size_t>(1, max_samples_at_work / pieces.length());
+    const std::size_t together = std::min(at_work, static_cast<std::size_t>(std::max(threads, 1)));
     std::vector<HalfTransform> transforms(together);
     std::vector<std::vector<double>> each(together);
     for (std::size_t from = 0; from < pieces.count(); from += together) {

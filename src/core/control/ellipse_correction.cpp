@@ -118,10 +118,9 @@ EllipseLearning learn(EllipseCorrectionState& state, const QuadratureSample& sam
     state.n_full += n == samples_a_bin;
     if (state.n_full < ellipse_bins) return {.taken = true, .is_first = is_first};
     for (unsigned k = 0; k < state.memory.size(); ++k) state.memory[k] = kept * state.memory[k] + state.block[k];
-    const std::int32_t n_halves = state.n_halves;
     begin_block(state);
     if (!fit(state)) forget(state);
-    return {.taken = true, .is_first = is_first, .completes = true, .n_halves = n_halves};
+    return {.taken = true, .is_first = is_first, .completes = true};
 }
 
 void forget(EllipseCorrectionState& state) noexcept { state = {}; }

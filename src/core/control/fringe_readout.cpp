@@ -143,13 +143,14 @@ double usual_off_turns(const FringeReadoutConfig& c, const FringeReadoutInput& i
 void learn(const FringeReadoutConfig& c, FringeReadoutState& s, const QuadratureSample& x, const FringeReadoutInput& in,
            std::int32_t off) noexcept {
     const bool was_learnt = s.ellipse.learnt;
+    const std::int32_t halves = s.ellipse.n_halves + 1;
     const EllipseLearning done = learn(s.ellipse, at_usual_amplitude(s, x), in.sign);
     if (done.is_first) s.skew_sum_turns = 0.0;
     if (done.taken) s.skew_sum_turns += 0.25 * in.sign * ((off + quarter_parts / 2) >> 16) - usual_off_turns(c, in);
     if (!done.completes) return;
     if (!was_learnt && s.ellipse.learnt) s.level = 1.0;
     const double mean = s.skew_sum_turns / (samples_a_bin * ellipse_bins);
-    if (!was_learnt || done.n_halves > most_skew_halves) return;
+    if (!was_learnt || halves > most_skew_halves) return;
     if (s.n_skews < skew_blocks) ++s.n_skews;
     s.skew_turns += (mean - s.skew_turns) / s.n_skews;
 }

@@ -61,10 +61,9 @@ struct EllipseCorrectionState {
 };
 
 struct EllipseLearning {
-    bool taken = false;         // into the block
-    bool is_first = false;      // of a block, the one before is used or given up
-    bool completes = false;     // the block, and a new ellipse is known, or none
-    std::int32_t n_halves = 0;  // that a block took which is complete
+    bool taken = false;      // into the block
+    bool is_first = false;   // of a block, the one before is used or given up
+    bool completes = false;  // the block, and a new ellipse is known, or none
 };
 
 // Learn from the sample of one half.
