@@ -302,6 +302,18 @@ class NoMeasurements(ForeignCase):
         self.assertLess(bias[1]["sigma"], 0.01)
         self.refuse(2, "import", path, *said, "--map", "temperature_c=temp_c", "--out", self.folder / "a.csv", says=("temperature_c",))
 
+    def test_a_temperature_in_another_unit_is_taken_in_degrees_celsius(self):
+        n = 4000
+        t = 25 + 10 * numpy.sin(numpy.arange(n) / 300)
+        w = 9.0 + 2.0 * (t - 25) + self.rng.normal(0, 0.5, n)
+        laws = []
+        for name, values in (("temp_c", t), ("temp_F", 32 + 1.8 * t), ("temp [\u00b0F]", 32 + 1.8 * t), ("T_K", 273.15 + t), ("T (m\u00b0C)", 1e3 * t)):
+            path = self.table("t.csv", f"w_dph,{name}", w, [f"{x:.9f}" for x in values])
+            said = run("analyze", path, "--map", "rate_hz=1", "--map", "axis=w_dph", "--map", f"temperature_c={name}", "--json")
+            laws.append(json.loads(said.stdout)["axes"][0]["temperature"]["bias"][1]["value"])
+            self.assertEqual("is taken in C" in said.stderr, name != "temp_c", name)
+        numpy.testing.assert_allclose(laws, laws[0], rtol=1e-6)
+
 
 class Heads(ForeignCase):
     def test_units_behind_a_stroke_or_a_point(self):

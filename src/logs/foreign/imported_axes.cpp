@@ -7,6 +7,7 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/imported.hpp>
 
+#include "celsius.hpp"
 #include "mixed_rows.hpp"
 #include "raw_sources.hpp"
 #include "row_clock.hpp"
@@ -134,6 +135,7 @@ ImportedAxes imported_axes(const ForeignLook& look) {
         look.mapping.has("mode") ? modes_of(look, read.columns[n_axes], clock) : std::vector<std::int8_t>{};
     if (look.mapping.has("temperature_c")) {
         TextColumn& column = read.columns[n_axes + (look.mapping.has("mode") ? 1 : 0)];
+        if (const std::string note = make_celsius(column); !note.empty()) imported.notes.push_back(note);
         if (clock.times) fill_holes(column.values, *clock.times);
         imported.temperature_c = column.values.vector();
         if (look.mapping.text("holds") == "angle") imported.temperature_c.erase(imported.temperature_c.begin());

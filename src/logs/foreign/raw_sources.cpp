@@ -9,6 +9,7 @@
 #include <limits>
 #include <zlg/logs/error.hpp>
 
+#include "celsius.hpp"
 #include "suspect_values.hpp"
 
 namespace zlg::logs {
@@ -56,6 +57,8 @@ RawSources::RawSources(const ForeignLook& look) : look_{look} {
     for (RawSource& source : all_) {
         if (!is_fixed(source.from)) {
             source.from = described(read_.columns[next]);
+            if (source.key == "temperature_c")
+                if (const std::string note = make_celsius(read_.columns[next]); !note.empty()) notes_.push_back(note);
             source.values = std::move(read_.columns[next++].values);
         }
         if (source.key != "mode" && source.key != "bias_sign") continue;

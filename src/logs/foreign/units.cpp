@@ -82,27 +82,31 @@ std::string without_factor(std::string_view text) {
     return unit.substr(begin, unit.find_last_not_of("eExX/_") + 1 - begin);
 }
 
-// Of the text where a name may have its unit the first that is one.
 template <class Reads>
 std::optional<AngleUnit> first_unit(std::string_view name, const Reads& reads) {
+    for (const std::string_view place : unit_places(name))
+        if (const auto unit = reads(place)) return unit;
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string_view> unit_places(std::string_view name) {
+    std::vector<std::string_view> places;
     std::size_t open = name.find_first_of("[(");
     const bool has_brackets = open != std::string_view::npos;
     for (; open != std::string_view::npos; open = name.find_first_of("[(", open + 1)) {
         const std::size_t close = name.find_first_of("])", open);
         if (close == std::string_view::npos) break;
-        if (const auto unit = reads(name.substr(open + 1, close - open - 1))) return unit;
+        places.push_back(name.substr(open + 1, close - open - 1));
     }
-    if (has_brackets) return std::nullopt;
+    if (has_brackets) return places;
     // rate_deg_s before rate_s; a name that is nothing but a unit says nothing of a quantity.
-    std::vector<std::size_t> parts;
     for (std::size_t at = name.find_first_of("_ "); at != std::string_view::npos; at = name.find_first_of("_ ", at + 1))
-        parts.push_back(at + 1);
-    for (std::size_t k = parts.size() > 2 ? parts.size() - 2 : 0; k < parts.size(); ++k)
-        if (const auto unit = reads(name.substr(parts[k]))) return unit;
-    return std::nullopt;
+        places.push_back(name.substr(at + 1));
+    if (places.size() > 2) places.erase(places.begin(), places.end() - 2);
+    return places;
 }
-
-}  // namespace
 
 std::optional<AngleUnit> unit_named(std::string_view word) {
     const std::string usual = usual_spelling(word);
