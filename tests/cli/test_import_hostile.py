@@ -63,6 +63,11 @@ class Npy(Hostile):
                      "{'descr': '<f8', 'fortran_order': True, 'shape': (" + "9" * 30 + ",)}", "{'descr':" + " " * 900 + "'<f8'"):
             self.cheap("import", self.array(head, bytes(1200)), code=3)
 
+    def test_a_head_of_many_blanks_is_only_long(self):
+        blanks = "{'descr':%s'<f8', 'fortran_order': False, 'shape': (50, 3), }"
+        self.cheap("import", self.array(blanks % (" " * 900), bytes(1200)), code=0)
+        self.assertIn("head of 60", self.cheap("import", self.array(blanks % (" " * 60_000), bytes(1200)), code=3).stderr)
+
     def test_a_version_that_numpy_does_not_know(self):
         path = self.array("{'descr': '<f8', 'fortran_order': False, 'shape': (50, 3)}", bytes(1200))
         self.cheap("import", path, code=0)
