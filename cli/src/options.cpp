@@ -165,6 +165,11 @@ void refuse_own_input(const std::string& input, const std::string& output, const
             fmt::format("{} {}: would grow as {}, which is the input; name another file", option, output, input)};
 }
 
+void refuse_same_output(const std::string& path, const std::string& out, const char* option) {
+    if (std::filesystem::weakly_canonical(path) == std::filesystem::weakly_canonical(out))
+        throw UsageError{fmt::format("{} {}: is what --out writes; name another file", option, path)};
+}
+
 void require_suffix(const std::string& path, std::string_view suffix) {
     const std::string found = std::filesystem::path{path}.extension();
     if (found != suffix)

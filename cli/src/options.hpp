@@ -86,6 +86,11 @@ void refuse_a_run_that_lacks_switches(const rig::SwitchTally& tally);
 // errors  UsageError where both are the same file; `option` names the output.
 void refuse_own_input(const std::string& input, const std::string& output, const char* option = "--out");
 
+// An output that `option` names must be another file than that of --out.
+//
+// errors  UsageError for the same one.
+void refuse_same_output(const std::string& path, const std::string& out, const char* option);
+
 [[nodiscard]] constexpr bool is_raw(logs::LogKind kind) {
     return kind == logs::LogKind::raw_csv || kind == logs::LogKind::raw_hdf5;
 }

@@ -54,16 +54,13 @@ RunFiles::RunFiles(const std::string& out, bool force, const config::Config& con
     else
         folder_.emplace(out);
     open_logs(config, force, kept, light_samples);
-    health_.emplace(path(health_file), force);
-    health_->append(health_head());
-    switches_.emplace(path(switches_file), force);
-    summary_.emplace(path(summary_file), force);
-    page_.emplace(path(page_file), force);
+    for (const File file : {health_file, switches_file, summary_file, page_file})
+        texts_.try_emplace(file, path(file), force);
+    texts_.at(health_file).append(health_head());
 }
 
 void RunFiles::add_lab(const std::string& page, bool force) {
-    lab_.emplace(path(lab_file), force);
-    lab_->append(page);
+    texts_.try_emplace(lab_file, path(lab_file), force).first->second.append(page);
 }
 
 void RunFiles::open_logs(const config::Config& config, bool force, KeptLogs kept, int light_samples) {
@@ -84,7 +81,7 @@ void RunFiles::open_logs(const config::Config& config, bool force, KeptLogs kept
 RunFiles::~RunFiles() {
     if (finished_) return;
     const logs::Together all_or_none;
-    for (auto* file : {&health_, &switches_, &summary_, &page_, &lab_}) file->reset();
+    texts_.clear();
     raw_.reset();
     angles_.reset();
     std::error_code ignored;
@@ -92,7 +89,7 @@ RunFiles::~RunFiles() {
 }
 
 void RunFiles::write_health(std::int64_t half, std::uint32_t bits) {
-    health_->append(fmt::format("{},{},{}\n", half, 0.5 * tick_s_ * static_cast<double>(half + 1), bits));
+    texts_.at(health_file).append(fmt::format("{},{},{}\n", half, 0.5 * tick_s_ * static_cast<double>(half + 1), bits));
 }
 
 void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std::string& summary,
@@ -100,24 +97,20 @@ void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std:
     const logs::Together all_or_none;
     if (raw_) raw_->set_fingerprint(fingerprint);
     if (angles_) angles_->set_fingerprint(fingerprint);
-    switches_->append(switch_csv(switches, true));
-    summary_->append(summary);
-    page_->append(page);
+    texts_.at(switches_file).append(switch_csv(switches, true));
+    texts_.at(summary_file).append(summary);
+    texts_.at(page_file).append(page);
     // The logs last: what fails here leaves HDF5 logs as they are, and what else was completed is taken back.
-    const auto complete = [&](auto& file, File which) {
+    const auto complete = [&](auto& file, std::size_t which) {
         const bool is_new = !fs::exists(path(which));
-        file->close();
+        file.close();
         if (is_new && !names_[which].ends_with(".h5")) completed_.push_back(path(which));
     };
-    complete(health_, health_file);
-    complete(switches_, switches_file);
-    complete(summary_, summary_file);
-    complete(page_, page_file);
-    if (lab_) complete(lab_, lab_file);
+    for (auto& [which, file] : texts_) complete(file, which);
     const auto complete_log = [&](auto& file, File which) {
         std::error_code ignored;
         if (file)
-            complete(file, which);
+            complete(*file, which);
         else
             fs::remove(path(which), ignored);
     };
@@ -127,10 +120,10 @@ void RunFiles::finish(const std::vector<study::SwitchLine>& switches, const std:
 }
 
 std::string RunFiles::list() const {
-    std::vector<std::string> written{names_.begin() + health_file, names_.begin() + lab_file};
-    if (lab_) written.push_back(names_[lab_file]);
-    if (angles_) written.insert(written.begin(), names_[angles_file]);
-    if (raw_) written.insert(written.begin(), names_[raw_file]);
+    std::vector<std::string> written;
+    if (raw_) written.push_back(names_[raw_file]);
+    if (angles_) written.push_back(names_[angles_file]);
+    for (const auto& [which, file] : texts_) written.push_back(names_[which]);
     return fmt::format("{}", fmt::join(written, ", "));
 }
 

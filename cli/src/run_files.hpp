@@ -2,6 +2,7 @@
 // The files of a run, in a folder of their own: all of them appear, or none.
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,11 +68,7 @@ private:
     std::vector<std::string> completed_;  // by this run, where nothing stood before
     std::optional<logs::RawWriter> raw_;
     std::optional<logs::AngleWriter> angles_;
-    std::optional<logs::TableFile> health_;
-    std::optional<logs::TableFile> switches_;
-    std::optional<logs::TableFile> summary_;
-    std::optional<logs::TableFile> page_;
-    std::optional<logs::TableFile> lab_;  // where it is asked for
+    std::map<std::size_t, logs::TableFile> texts_;  // by their place among the names
 };
 
 }  // namespace zlg::cli

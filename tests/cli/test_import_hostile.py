@@ -47,14 +47,26 @@ class Npy(Hostile):
     def array(self, head, data, version=2):
         return self.write("a.npy", b"\x93NUMPY" + bytes([version, 0]) + struct.pack("<I", len(head)) + head.encode() + data)
 
-    def test_any_spelling_of_the_order_is_read_as_numpy_does(self):
-        for order in ("'fortran_order':True", "'fortran_order':  True", '"fortran_order" : True', "'fortran_order': False"):
-            for form in ("{{'descr': '<f8', {}, 'shape': (50, 3), }}", "{{'shape':(50,3),{},'descr':'<f8'}}"):
+    def test_the_usual_spellings_are_read_as_numpy_does(self):
+        for order in ("'fortran_order':True", "'fortran_order':  True", "'fortran_order': False"):
+            for form in ("{{'descr': '<f8', {}, 'shape': (50, 3), }}", "{{'descr': '<f8',{},'shape':(50,3)}}   \n"):
                 data = self.rates(150).tobytes()
                 path = self.array(form.format(order), data)
                 expected = numpy.load(path)[:, 1]
                 self.assert_turns(self.angles(path, *W, *FIXED_RATE), expected / 100)
-        self.cheap("import", self.array("{'descr': '<f8', 'fortran_order': 1, 'shape': (50, 3)}", bytes(1200)), code=3)
+
+    def test_what_numpy_does_not_read_or_reads_otherwise_is_refused(self):
+        for head in ("{}", "{'descr': '<f8', 'fortran_order': 1, 'shape': (50, 3)}", "{'descr': '<f8', 'fortran_order': Trueish, 'shape': (150,)}",
+                     "{'descr': '<f8', 'fortran_order': True, 'shape': (150)}", "{'descr': '<f8', 'fortran_order': True, 'shape': (150,,)}",
+                     "{'descr': '<f8', 'fortran_order': not True, 'shape': (150,)}", "{'descr': '<f8', 'fortran_order': True, 'shape': (150,)} or {}",
+                     "{'descr': '\\x3cf8', 'fortran_order': True, 'shape': (150,)}", "{'descr': '<f8', 'fortran_order': True, 'shape': (5 0, 3)}",
+                     "{'descr': '<f8', 'fortran_order': True, 'shape': (" + "9" * 30 + ",)}", "{'descr':" + " " * 900 + "'<f8'"):
+            self.cheap("import", self.array(head, bytes(1200)), code=3)
+
+    def test_a_head_of_many_blanks_is_only_long(self):
+        blanks = "{'descr':%s'<f8', 'fortran_order': False, 'shape': (50, 3), }"
+        self.cheap("import", self.array(blanks % (" " * 900), bytes(1200)), code=0)
+        self.assertIn("head of 60", self.cheap("import", self.array(blanks % (" " * 60_000), bytes(1200)), code=3).stderr)
 
     def test_a_version_that_numpy_does_not_know(self):
         path = self.array("{'descr': '<f8', 'fortran_order': False, 'shape': (50, 3)}", bytes(1200))

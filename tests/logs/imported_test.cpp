@@ -25,16 +25,16 @@ TEST(ImportedRaw, a_missing_row_becomes_a_half_without_counts) {
     EXPECT_EQ(made.header.settings[0].second, "0.005");
 }
 
-TEST(ImportedRaw, rows_of_a_part_of_a_half_are_added_up) {
+TEST(ImportedRaw, rows_of_a_part_of_a_half_are_refused) {
     std::string text = "t_ms;counts;bias_sign\n";
     for (int k = 0; k < 24; ++k)
         text +=
             std::to_string(k) + ";" + std::to_string(k % 2 == 0 ? k : -k) + ";" + (k / 3 % 2 == 0 ? "1" : "-1") + "\n";
-    const ImportedRaw made = imported_raw(look_of(text, {"mode=always:1", "loop_closed=always:1", "scale_arcsec=2"}));
-    ASSERT_EQ(made.rows.size(), 8u);
-    EXPECT_EQ(made.rows[0].counts, 0 - 1 + 2);
-    EXPECT_EQ(made.rows[7].counts, -21 + 22 - 23);
-    EXPECT_EQ(made.header.settings[0].second, "0.006");
+    const std::string said = test::message_of<FormatError>([&] {
+        (void)imported_raw(look_of(text, {"mode=always:1", "loop_closed=always:1", "scale_arcsec=2"}));
+    });
+    for (const char* part : {"row 2: bias_sign", "7 times in 24 rows", "allowed is a row a half"})
+        test::expect_contains(said, part);
 }
 
 TEST(ImportedAxes, a_hole_in_angles_keeps_the_turn) {

@@ -2,7 +2,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -31,17 +30,6 @@ struct AnalyzeOptions : Options {
     std::string compare;
 };
 
-bool same_name(const std::string& a, const std::string& b) {
-    namespace fs = std::filesystem;
-    const auto whole = [](const std::string& path) {
-        std::error_code failed;
-        const fs::path followed = fs::weakly_canonical(path, failed);
-        return failed ? fs::absolute(path).lexically_normal() : followed;
-    };
-    std::error_code ignored;
-    return whole(a) == whole(b) || fs::equivalent(a, b, ignored);
-}
-
 void check_output(const AnalyzeOptions& options, const std::string& output, const char* option) {
     if (output.empty()) return;
     for (const std::string& file : options.files) refuse_own_input(file, output, option);
@@ -55,10 +43,7 @@ void check_usage(const AnalyzeOptions& options) {
     if (suffix != ".html")
         throw UsageError{fmt::format("{}: the suffix '{}' names no report; allowed is .html", options.out, suffix)};
     check_output(options, options.out, "--out");
-    if (options.imu_yaml.empty()) return;
-    for (const std::string& name : {options.out, options.out + ".part"})
-        if (same_name(options.imu_yaml, name) || same_name(options.imu_yaml + ".part", name))
-            throw UsageError{fmt::format("--imu-yaml {}: is what --out writes; name another file", options.imu_yaml)};
+    if (!options.imu_yaml.empty()) refuse_same_output(options.imu_yaml, options.out, "--imu-yaml");
 }
 
 std::optional<study::PresumedNoise> presumed(const AnalyzeOptions& options) {

@@ -1,7 +1,6 @@
 #include <array>
 #include <bit>
 #include <chrono>
-#include <filesystem>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -33,8 +32,6 @@
 
 namespace zlg::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ProcessOptions : Options {
     std::string raw;
@@ -177,8 +174,7 @@ void process(const ProcessOptions& options) {
     if (!options.switches.empty()) {
         require_suffix(options.switches, ".csv");
         refuse_own_input(options.raw, options.switches, "--switches");
-        if (fs::weakly_canonical(options.switches) == fs::weakly_canonical(options.out))
-            throw UsageError{fmt::format("--switches {}: is the file of the angles; name another", options.switches)};
+        refuse_same_output(options.switches, options.out, "--switches");
     }
     if (options.follow && is_mapped(options))
         throw UsageError{"--follow: a mapping reads whole files; allowed is a log of zlg"};

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -83,9 +82,7 @@ void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::Ra
 
 void simulate(const SimulateOptions& options) {
     const logs::LogFormat format = log_format(options.out);
-    if (!options.wire.empty() &&
-        std::filesystem::path{options.wire}.lexically_normal() == std::filesystem::path{options.out}.lexically_normal())
-        throw UsageError{fmt::format("--wire {}: is the raw log; name another file", options.wire)};
+    if (!options.wire.empty()) refuse_same_output(options.wire, options.out, "--wire");
     const config::Config config = resolve(load_config(options)).config;
     rig::require_every_half(config, "a raw log", "allowed is gyro.fidelity = \"averaged\" or \"laser\"");
     const int light_samples = logged_light_samples(options, config, format);

@@ -21,9 +21,9 @@ namespace zlg::logs {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> raw_names{
+constexpr std::array<std::string_view, 13> raw_names{
     "half",    "bias_sign",     "mode",   "counts", "loop_closed", "valid", "detuning_lambda", "detuning_sq_lambda2",
-    "piezo_v", "temperature_c", "fringe", "span",   "late",        "lit"};
+    "piezo_v", "temperature_c", "fringe", "span",   "lit"};
 
 bool all_of_known(const ForeignColumn& column, bool (*holds)(double)) {
     return std::ranges::all_of(column.values, [holds](double v) { return std::isnan(v) || holds(v); });

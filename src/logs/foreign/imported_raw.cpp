@@ -15,12 +15,6 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-// How many rows make a half, and the row at which the first whole half begins.
-struct Halves {
-    std::size_t rows = 1;
-    std::size_t begin = 0;
-};
-
 [[noreturn]] void refuse_whole_ticks(const std::string& path) {
     throw FormatError(
         fmt::format("{}: its rows are not halves of a bias period, and counts of a whole one cannot be parted into "
@@ -29,32 +23,21 @@ struct Halves {
                     path));
 }
 
-// By the signs of the bias: a half ends where they turn. Rows that are missing have none.
-Halves halves_by_signs(const RawSources& from, const std::string& path) {
+// Each row is a half: the signs of the bias turn with every one. Rows that are missing have none.
+void check_signs(const RawSources& from, const std::string& path) {
     const LongColumn& sign = from.find("bias_sign")->values;
-    std::vector<std::size_t> turns;
-    for (std::size_t k = 1; k < sign.size(); ++k)
-        if (!std::isnan(sign[k]) && !std::isnan(sign[k - 1]) && sign[k] != sign[k - 1]) turns.push_back(k);
-    if (turns.empty()) refuse_whole_ticks(path);
-    std::vector<std::size_t> lengths;
-    for (std::size_t k = 1; k < turns.size(); ++k) lengths.push_back(turns[k] - turns[k - 1]);
-    if (lengths.empty()) lengths = {1};
-    const auto middle = lengths.begin() + std::ssize(lengths) / 2;
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    const Halves halves{.rows = *middle, .begin = turns.front() % *middle};
-    const double first = sign[turns.front()];
-    const std::size_t parity = (turns.front() - halves.begin) / halves.rows % 2;
-    for (std::size_t k = 0; k < sign.size(); ++k) {
-        const std::size_t half = (k + halves.rows - halves.begin) / halves.rows + 1;
-        const double due = (half + parity) % 2 == 0 ? first : -first;
+    double due = missing;
+    std::size_t n_turns = 0;
+    for (std::size_t k = 1; k < sign.size(); ++k) n_turns += sign[k] * sign[k - 1] < 0.0 ? 1u : 0u;
+    if (n_turns == 0) refuse_whole_ticks(path);
+    for (std::size_t k = 0; k < sign.size(); ++k, due = -due) {
+        if (std::isnan(due)) due = sign[k];
         if (std::isnan(sign[k]) || sign[k] == due) continue;
-        throw FormatError(
-            fmt::format("{}, row {}: bias_sign = {:+}; expected {:+}: the signs turn every {} row{} elsewhere, so that "
-                        "a row is missing or "
-                        "stands twice before this one, and no column of times or numbers of halves says which",
-                        path, from.row_of_file(k), sign[k], due, halves.rows, halves.rows == 1 ? "" : "s"));
+        throw FormatError(fmt::format(
+            "{}, row {}: bias_sign = {:+}; expected {:+}: the signs turn {} times in {} rows; allowed is a row "
+            "a half, none missing or twice that no column of times or numbers of halves shows",
+            path, from.row_of_file(k), sign[k], due, n_turns, sign.size()));
     }
-    return halves;
 }
 
 class Builder {
@@ -68,18 +51,14 @@ public:
             fill_by_numbers();
         else
             fill_by_times();
-        find_halves();
+        if (!from_.is_column("half") && from_.is_column("bias_sign")) check_signs(from_, path_);
         settle_tick();
         if (!from_.is_column("half") && !from_.read().times)
             made_.notes.push_back("nothing in it says whether rows are missing: neither times nor numbers of halves");
-        if (halves_.begin > 0)
-            made_.notes.push_back(fmt::format("the first {} row{} a half that began before the file, and left out",
-                                              halves_.begin, halves_.begin == 1 ? " is" : "s are"));
-        const std::size_t n = (from_.n() - halves_.begin) / halves_.rows;
-        const std::size_t rest = (from_.n() - halves_.begin) % halves_.rows;
-        if (rest > 0) made_.notes.push_back(fmt::format("the last {} rows are no whole half, and left out", rest));
-        made_.rows.reserve(n);
-        for (std::size_t h = 0; h < n; ++h) made_.rows.push_back(half_of(h));
+        if (begin_ > 0)
+            made_.notes.push_back(
+                "the first row is the second half of a tick that began before the file, and left out");
+        for (std::size_t k = begin_; k < from_.n(); ++k) made_.rows.push_back(half_of(k));
         note_columns();
     }
 
@@ -96,7 +75,7 @@ private:
             times.n_missing += times.holes.back().n_missing;
         }
         refuse_many_missing(path_, from_.find("half")->from, number, times, "");
-        is_odd_ = std::fmod(number.front(), 2.0) != 0.0;
+        begin_ = std::fmod(number.front(), 2.0) != 0.0 ? 1 : 0;
         if (number.front() != 0.0)
             made_.notes.push_back(fmt::format("the halves are numbered anew: the first was {}", number.front()));
         fill(times, "the numbers of the halves");
@@ -120,7 +99,6 @@ private:
         std::optional<double> step;
         const auto tick = mapping.real("tick_s");
         if (tick && !mapping.has("rate_hz")) {
-            // Rows of a half are the usual case; of parts of one the unit must be known.
             if (!missing_of_clock(look_.table, mapping).empty()) step = *tick / 2.0;
         }
         clock_ = row_clock(from_.read(), path_, mapping, step);
@@ -138,52 +116,24 @@ private:
         from_.fill(times);
     }
 
-    void find_halves() {
-        if (from_.is_column("half")) {
-            halves_.begin = is_odd_ ? 1 : 0;
-            return;
-        }
-        if (from_.is_column("bias_sign")) {
-            halves_ = halves_by_signs(from_, path_);
-            return;
-        }
-        // Signs that merely alternate say nothing of how long a row is.
-        const auto tick = look_.mapping.real("tick_s");
-        if (!tick || !knows_step_) return;
-        const double rows = *tick / 2.0 / clock_.step_s;
-        if (rows < 0.75) refuse_whole_ticks(path_);
-        if (std::fabs(rows - 1.0) > 1e-3)
-            throw FormatError(fmt::format(
-                "{}: a half of {} s has {:.6g} rows of {:.6g} s, and nothing says where halves begin; allowed "
-                "is a column bias_sign",
-                path_, *tick / 2.0, rows, clock_.step_s));
-    }
-
     // What is said and what the times say must agree.
     void settle_tick() {
         const auto said = look_.mapping.real("tick_s");
-        const double by_times_s = 2.0 * static_cast<double>(halves_.rows) * clock_.step_s;
+        const double by_times_s = 2.0 * clock_.step_s;
         if (!said && !knows_step_)
             throw MappingError(
                 fmt::format("{}: is missing: --map tick_s=... (the whole bias period, two halves)", path_));
-        tick_s_ = said.value_or(by_times_s);
+        const double tick_s = said.value_or(by_times_s);
+        if (said && knows_step_ && by_times_s > 1.5 * *said) refuse_whole_ticks(path_);
         if (said && knows_step_ && std::fabs(by_times_s / *said - 1.0) > 1e-3)
-            throw FormatError(fmt::format(
-                "{}: tick_s = {}, and two halves of {} row{} of {:.6g} s make {:.6g} s; allowed is one value{}", path_,
-                *said, halves_.rows, halves_.rows == 1 ? "" : "s", clock_.step_s, by_times_s,
-                halves_.rows == 1 && std::fabs(by_times_s / *said - 2.0) < 1e-2
-                    ? "; counts of whole ticks cannot be parted into halves"
-                    : ""));
-        if (!said) made_.notes.push_back(fmt::format("tick_s = {} by the times of the rows", tick_s_));
-        made_.header.settings = {{"gyro.tick_s", fmt::format("{}", tick_s_)},
+            throw FormatError(
+                fmt::format("{}: tick_s = {}, and two rows of {:.6g} s make {:.6g} s; allowed are rows of a half each, "
+                            "with the counts "
+                            "of parts of a half added up",
+                            path_, *said, clock_.step_s, by_times_s));
+        if (!said) made_.notes.push_back(fmt::format("tick_s = {} by the times of the rows", tick_s));
+        made_.header.settings = {{"gyro.tick_s", fmt::format("{}", tick_s)},
                                  {"gyro.scale_arcsec", look_.mapping.text("scale_arcsec")}};
-        if (halves_.rows > 1)
-            made_.notes.push_back(fmt::format("{} rows make a half; their counts are added up", halves_.rows));
-        for (const char* key : {"fringe", "span", "edge_offset_ticks"})
-            if (halves_.rows > 1 && from_.find(key) != nullptr)
-                throw FormatError(
-                    fmt::format("{}: {} rows make a half, and {} of a part of one is none of the half; leave it out",
-                                path_, halves_.rows, key));
     }
 
     [[nodiscard]] double whole(const char* key, std::size_t k, double min, double max) const {
@@ -195,100 +145,61 @@ private:
 
     [[nodiscard]] bool flag(const char* key, std::size_t k) const { return whole(key, k, 0.0, 1.0) != 0.0; }
 
-    core::HalfRecord half_of(std::size_t h) {
-        const auto half = static_cast<std::int64_t>(h);
+    core::HalfRecord half_of(std::size_t k) {
         core::HalfRecord row;
-        row.half = half;
-        const std::size_t from = halves_.begin + h * halves_.rows;
-        bool is_there = true;
-        double counts = 0.0;
-        for (std::size_t k = from; k < from + halves_.rows; ++k) {
-            const double n = from_.at("counts", k);
-            is_there = is_there && !std::isnan(n);
-            if (std::isnan(n)) continue;
-            counts += whole("counts", k, -4503599627370496.0, 4503599627370496.0);
-            if (from_.find("valid") != nullptr && !flag("valid", k)) row.valid = false;
-        }
-        take_signs(row, from, half);
-        take_loop(row, from);
-        row.valid = row.valid && is_there;
-        row.counts = is_there ? static_cast<std::int64_t>(counts) : 0;
-        take_rest(row, from, half);
+        row.half = static_cast<std::int64_t>(k - begin_);
+        const bool is_there = !std::isnan(from_.at("counts", k));
+        row.valid = is_there && (from_.find("valid") == nullptr || flag("valid", k));
+        if (is_there)
+            row.counts = static_cast<std::int64_t>(whole("counts", k, -4503599627370496.0, 4503599627370496.0));
+        take_states(row, k);
+        take_measured(row, k);
+        if (is_there) take_rest(row, k);
         last_ = row;
         return row;
     }
 
-    void take_signs(core::HalfRecord& row, std::size_t from, std::int64_t half) const {
-        double sign = missing, mode = missing;
-        for (std::size_t k = from; k < from + halves_.rows; ++k) {
-            const double s = from_.at("bias_sign", k), m = from_.at("mode", k);
-            if (!std::isnan(s)) sign = s;
-            if (std::isnan(m)) continue;
-            if (!std::isnan(mode) && m != mode) from_.refuse("mode", k, "one value throughout a half");
-            mode = m;
-        }
+    void take_states(core::HalfRecord& row, std::size_t k) const {
+        const double sign = from_.at("bias_sign", k), mode = from_.at("mode", k);
         // Before the first known sign nothing is known of it; a log must say one.
-        if (std::isnan(sign)) sign = half == 0 ? 1.0 : -last_.bias_sign;
-        row.bias_sign = sign > 0.0 ? 1 : -1;
-        row.mode = std::isnan(mode) ? last_.mode : static_cast<std::int8_t>(mode > 0.0 ? 1 : -1);
-    }
-
-    void take_loop(core::HalfRecord& row, std::size_t from) const {
+        row.bias_sign = std::isnan(sign) ? static_cast<std::int8_t>(row.half == 0 ? 1 : -last_.bias_sign)
+                                         : static_cast<std::int8_t>(sign);
+        row.mode = std::isnan(mode) ? last_.mode : static_cast<std::int8_t>(mode);
         const bool by_open = from_.find("loop_open") != nullptr;
-        const char* key = by_open ? "loop_open" : "loop_closed";
-        bool closed = true, known = false;
-        for (std::size_t k = from; k < from + halves_.rows; ++k) {
-            if (std::isnan(from_.at(key, k))) continue;
-            known = true;
-            closed = closed && flag(key, k) != by_open;
-        }
-        row.loop_closed = known ? closed : last_.loop_closed;
+        const char* loop = by_open ? "loop_open" : "loop_closed";
+        row.loop_closed = std::isnan(from_.at(loop, k)) ? last_.loop_closed : flag(loop, k) != by_open;
     }
 
-    [[nodiscard]] double mean(const char* key, std::size_t from) const {
-        double sum = 0.0;
-        for (std::size_t k = from; k < from + halves_.rows; ++k) sum += from_.at(key, k);
-        return sum / static_cast<double>(halves_.rows);
-    }
-
-    void take_rest(core::HalfRecord& row, std::size_t from, std::int64_t half) const {
-        const std::size_t end = from + halves_.rows - 1;
-        const bool is_there = !std::isnan(from_.at("counts", end));
+    void take_measured(core::HalfRecord& row, std::size_t k) const {
+        const auto value_or = [&](const char* key, double unknown) {
+            const double value = from_.at(key, k);
+            return from_.find(key) != nullptr && std::isnan(value) ? unknown : value;
+        };
         // Of a row that is missing: what a log says of a half that was not measured.
-        const double detuning = mean("detuning_lambda", from), square = mean("detuning_sq_lambda2", from);
-        row.detuning_lambda = from_.find("detuning_lambda") != nullptr && std::isnan(detuning) ? 0.0 : detuning;
-        row.detuning_sq_lambda2 = from_.find("detuning_sq_lambda2") != nullptr && std::isnan(square) ? 0.0 : square;
-        const double piezo = from_.at("piezo_v", end), temperature = from_.at("temperature_c", end);
-        row.piezo_v = std::isnan(piezo) ? (half == 0 ? 0.0 : last_.piezo_v) : piezo;
-        row.temperature_c = std::isnan(temperature) ? last_.temperature_c : temperature;
+        row.detuning_lambda = value_or("detuning_lambda", 0.0);
+        row.detuning_sq_lambda2 = value_or("detuning_sq_lambda2", 0.0);
+        row.piezo_v = value_or("piezo_v", row.half == 0 ? 0.0 : last_.piezo_v);
+        row.temperature_c = value_or("temperature_c", last_.temperature_c);
         if (from_.find("temperature_c") != nullptr && std::isnan(row.temperature_c))
-            from_.refuse("temperature_c", end, "a finite number in the first row");
-        if (from_.find("piezo_v") == nullptr) row.piezo_v = missing;
-        if (!is_there) return;
-        if (from_.find("fringe") != nullptr) {
-            const double fringe = from_.at("fringe", end);
-            row.fringe = std::isnan(fringe) ? row.fringe : static_cast<float>(whole("fringe", end, 0.0, 65535.0));
-        }
-        if (from_.find("span") != nullptr) row.span = static_cast<std::int32_t>(whole("span", end, 1.0, 2147483647.0));
+            from_.refuse("temperature_c", k, "a finite number in the first row");
+    }
+
+    void take_rest(core::HalfRecord& row, std::size_t k) const {
+        constexpr double most = 2147483647.0;
+        if (from_.find("fringe") != nullptr && !std::isnan(from_.at("fringe", k)))
+            row.fringe = static_cast<float>(whole("fringe", k, 0.0, 65535.0));
+        if (from_.find("span") != nullptr) row.span = static_cast<std::int32_t>(whole("span", k, 1.0, most));
         if (from_.find("edge_offset_ticks") != nullptr)
-            row.edge_offset_ticks =
-                static_cast<std::int32_t>(whole("edge_offset_ticks", end, -2147483647.0, 2147483647.0));
-        if (from_.find("lit") == nullptr) return;
-        row.lit = true;
-        for (std::size_t k = from; k <= end; ++k) row.lit = row.lit && flag("lit", k);
+            row.edge_offset_ticks = static_cast<std::int32_t>(whole("edge_offset_ticks", k, -most, most));
+        if (from_.find("lit") != nullptr) row.lit = flag("lit", k);
     }
 
     void note_columns() {
         RawHeader& header = made_.header;
+        for_each_column<RawTable>([&]<class Field>(const Field& field, std::size_t) {
+            if constexpr (Field::is_optional) header.*field.is_there = from_.find(field.name) != nullptr;
+        });
         header.has_valid = true;
-        header.has_detuning = from_.find("detuning_lambda") != nullptr;
-        header.has_detuning_sq = from_.find("detuning_sq_lambda2") != nullptr;
-        header.has_piezo = from_.find("piezo_v") != nullptr;
-        header.has_temperature = from_.find("temperature_c") != nullptr;
-        header.has_fringe = from_.find("fringe") != nullptr;
-        header.has_span = from_.find("span") != nullptr;
-        header.has_lit = from_.find("lit") != nullptr;
-        header.has_edge_offset = from_.find("edge_offset_ticks") != nullptr;
         if (header.has_edge_offset) header.timer_hz = look_.mapping.real("timer_hz").value();
     }
 
@@ -297,10 +208,8 @@ private:
     RawSources from_;
     ImportedRaw& made_;
     RowClock clock_;
-    Halves halves_;
+    std::size_t begin_ = 0;  // the first row that is an even half
     core::HalfRecord last_{.temperature_c = missing};
-    double tick_s_ = 0.0;
-    bool is_odd_ = false;
     bool knows_step_ = false;
 };
 

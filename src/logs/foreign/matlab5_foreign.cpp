@@ -200,10 +200,7 @@ private:
         if (n < 2) return;
         if (std::min(size[0], size[1]) > max_matrix_columns) return leave_out(name);
         budget_.take_values(size[0], size[1]);
-        StoredMatrix stored{.bytes = numbers->data,
-                            .type = *type,
-                            .swapped = swapped_,
-                            .where = fmt::format("{}, {}", path_, text::excerpt(name, 60, ' '))};
+        StoredMatrix stored{.bytes = numbers->data, .type = *type, .swapped = swapped_};
         stored.take_shape(size[0], size[1], false);  // column by column
         arrays.push_back(array_of(name, stored));
     }

@@ -6,13 +6,13 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <regex>
 #include <zlg/logs/budget.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/row_times.hpp>
 #include <zlg/text/escape.hpp>
 
 #include "foreign_readers.hpp"
-#include "npy_head.hpp"
 #include "stored_numbers.hpp"
 
 namespace zlg::logs {
@@ -61,18 +61,22 @@ public:
     explicit NpyFile(const std::string& path) : path_{path}, bytes_{Piece::of_file(path)} {}
 
     StoredMatrix matrix() {
-        const NpyHead head = read_head();
-        const auto type = type_of(head.descr);
-        if (!type) fail(fmt::format("of the type '{}'", text::excerpt(head.descr, 40, '?')));
-        if (head.shape.empty() || head.shape.size() > 2) fail(fmt::format("of {} dimensions", head.shape.size()));
-        const std::size_t n = head.shape[0], m = head.shape.size() > 1 ? head.shape[1] : 1;
+        const std::string head = read_head();
+        // The dictionary as NumPy, and whoever writes for it, spells it.
+        static const std::regex spelled{
+            R"(\{ *'descr': *'([^'\\]*)', *'fortran_order': *(True|False), *'shape': *\((\d{1,18}),(?: *(\d{1,18}),?)?\),? *\})"};
+        std::smatch said;
+        if (!std::regex_match(head, said, spelled)) fail("of another type or shape");
+        const auto type = type_of(said.str(1));
+        if (!type) fail(fmt::format("of the type '{}'", text::excerpt(said.str(1), 40, '?')));
+        const std::size_t n = std::stoull(said.str(3)), m = said[4].matched ? std::stoull(said.str(4)) : 1;
         Budget{path_, bytes_.size()}.take_values(n, m);
         const std::size_t size = n * m * size_of(*type);
         if (size == 0) fail("without numbers");
         if (bytes_.size() - begin_ < size) fail("that is cut off");
         if (std::min(n, m) > max_matrix_columns) fail(fmt::format("of more than {} columns", max_matrix_columns));
-        StoredMatrix stored{.bytes = bytes_.part(begin_, size), .type = *type, .where = path_};
-        stored.take_shape(n, m, !head.fortran_order);
+        StoredMatrix stored{.bytes = bytes_.part(begin_, size), .type = *type};
+        stored.take_shape(n, m, said.str(2) == "False");
         return stored;
     }
 
@@ -84,8 +88,8 @@ private:
                         path_, what));
     }
 
-    NpyHead read_head() {
-        constexpr std::size_t max_head = 10'000;  // as NumPy allows
+    std::string read_head() {
+        constexpr std::size_t max_head = 1000;  // of plain numbers it has some 100
         if (bytes_.size() < 12) fail("that is cut off");
         const std::string start = bytes_.text(6, 6);
         const auto byte = [&start](std::size_t k) { return std::size_t{static_cast<unsigned char>(start[k])}; };
@@ -96,9 +100,9 @@ private:
         const std::size_t at = is_long ? 12 : 10;
         begin_ = at + length;
         if (begin_ > bytes_.size()) fail("that is cut off");
-        auto head = npy_head(bytes_.text(at, length));
-        if (!head) fail("of another type or shape");
-        return *std::move(head);
+        std::string head = bytes_.text(at, length);
+        head.erase(head.find_last_not_of(" \n") + 1);
+        return head;
     }
 
     const std::string& path_;
@@ -113,7 +117,7 @@ ForeignTable numpy_table_of(const std::string& path) {
 }
 
 ForeignTable doubles_table_of(const std::string& path) {
-    StoredMatrix all{.bytes = Piece::of_file(path), .where = path};
+    StoredMatrix all{.bytes = Piece::of_file(path)};
     const std::size_t n = all.bytes.size() / sizeof(double);
     const std::size_t width = width_of(all, n);
     if (width == 0)

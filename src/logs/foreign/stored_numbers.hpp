@@ -53,7 +53,6 @@ struct StoredMatrix {
     std::size_t rows = 0;
     std::size_t columns = 1;
     bool rows_follow = true;  // the numbers of a row lie side by side; else those of a column do
-    std::string where;        // for messages
 };
 
 [[nodiscard]] ForeignArray array_of(const std::string& name, const StoredMatrix& stored);

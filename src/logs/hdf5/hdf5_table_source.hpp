@@ -84,44 +84,26 @@ public:
     [[noreturn]] void fail() const { std::rethrow_exception(damage_); }
 
 private:
-    // Reads the good rows, or those before the first that cannot be read; returns how many are integers of type T.
+    // Reads the good rows, or those before the first that cannot be read; returns how many are integers of type T. A
+    // read fails as a whole; ever smaller pieces lead to the first row that cannot be read.
     template <class T>
     std::size_t read(Column<T>& column) {
-        if (good_rows_ == 0) return 0;
-        try {
-            return column.read_block(first_, good_rows_);
-        } catch (const std::runtime_error&) {
-            return read_before_damage(column);
-        }
-    }
-
-    // A read fails as a whole; ever smaller pieces lead to the first row that cannot be read.
-    template <class T>
-    std::size_t read_before_damage(Column<T>& column) {
-        std::size_t readable = 0;
-        for (std::size_t beyond = good_rows_; readable < beyond;) {
-            const std::size_t piece = std::max<std::size_t>((beyond - readable) / 2, 1);
-            if (can_read(column, first_ + readable, piece)) {
+        const std::size_t asked = good_rows_;
+        std::size_t readable = 0, fitting = 0;
+        for (std::size_t piece = asked; piece > 0;) {
+            try {
+                fitting = column.read_block(first_ + readable, piece);
                 readable += piece;
-            } else if (piece > 1) {
-                beyond = readable + piece;
-            } else {
-                break;
+                piece = std::min(piece, asked - readable);
+            } catch (const std::runtime_error&) {
+                damage_ = std::current_exception();
+                good_rows_ = readable;
+                piece /= 2;
             }
         }
+        if (good_rows_ == asked) return fitting;
         good_rows_ = readable;
         return readable > 0 ? column.read_block(first_, readable) : 0;
-    }
-
-    template <class T>
-    bool can_read(Column<T>& column, hsize_t first, std::size_t n) {
-        try {
-            column.read_block(first, n);
-            return true;
-        } catch (const std::runtime_error&) {
-            damage_ = std::current_exception();
-            return false;
-        }
     }
 
     const Source* source_;
