@@ -2,7 +2,7 @@
 import { compared_lines } from "./compensations";
 import { GyroClient } from "./client";
 import { element, finite, lines_of, made, positive } from "./elements";
-import { save } from "./export";
+import { save } from "./files";
 import { MagnifiedSwitches } from "./magnified";
 import { Chart, short } from "./plots";
 import type { LogPicture } from "./protocol";
@@ -33,14 +33,6 @@ export class LogView {
         this.read(false);
     }
 
-    // What was opened as a log is a motion.
-    hand_over(take: (file: File) => void): void {
-        if (this.file === null) return;
-        element("card-log").hidden = true;
-        element("card-motions").scrollIntoView({ block: "center" });
-        take(this.file);
-    }
-
     private read(for_saving: boolean): void {
         const file = this.file;
         if (file === null) return;
@@ -61,7 +53,7 @@ export class LogView {
             },
             log_read: ({ log }) => this.show(log),
             log_angles: ({ name, text }) => {
-                save(`${name.replace(/\.[^.]*$/, "")}-angles.csv`, "text/csv", text);
+                save(`${name.replace(/\.[^.]*$/, "")}-angles.csv`, text);
                 this.finish(`The angles of ${name} are saved.`, "shown");
             },
         });
@@ -84,7 +76,6 @@ export class LogView {
     private say(text: string, state: string): void {
         element("log-text").textContent = text;
         element("card-log").dataset.state = state;
-        element("log-as-motion").hidden = state === "reading";
         element("log-work").hidden = state !== "reading";
         element("log-text").classList.toggle("wrong", state === "refused");
         element<HTMLButtonElement>("log-again").disabled = state === "reading";
