@@ -3,12 +3,12 @@ import { compared_lines } from "./compensations";
 import { GyroClient } from "./client";
 import { element, finite, lines_of, made, positive } from "./elements";
 import { save } from "./files";
-import { MagnifiedSwitches } from "./magnified";
+import { MagnifiedSwitch } from "./magnified";
 import { Chart, short } from "./plots";
 import type { LogPicture } from "./protocol";
 
 export class LogView {
-    private charts: { angle: Chart; rate: Chart; difference: Chart; detuning: Chart; piezo: Chart; allan: Chart; switches: MagnifiedSwitches } | null = null;
+    private charts: { angle: Chart; rate: Chart; difference: Chart; detuning: Chart; piezo: Chart; allan: Chart; last_switch: MagnifiedSwitch } | null = null;
     private worker: GyroClient | null = null;
     private file: File | null = null;
 
@@ -92,7 +92,7 @@ export class LogView {
             detuning: chart("detuning", "detuning, λ", [{ label: "detuning of the perimeter", colour: "--ours", unit: "λ" }]),
             piezo: chart("piezo", "piezo, V", [{ label: "voltage at the piezo mirrors", colour: "--paper", unit: "V" }]),
             allan: chart("allan", "deviation, deg/h", compared_lines("deg/h"), { x: "averaging time, s", log_x: true, log_y: true, sync: "" }),
-            switches: new MagnifiedSwitches("log-switch", "Extrapolated less interpolated, dP", false),
+            last_switch: new MagnifiedSwitch("log-switch", "Extrapolated less interpolated, dP", false),
         };
         return this.charts;
     }
@@ -110,9 +110,8 @@ export class LogView {
         element("plot-log-detuning").hidden = empty(log.light, 1);
         element("plot-log-piezo").hidden = empty(log.light, 2);
         element("log-difference").hidden = empty(log.difference, 1);
-        element("log-switches").hidden = log.pictures.length === 0;
-        charts.switches.begin("");
-        charts.switches.add(log.pictures);
+        element("log-switches").hidden = log.picture === null;
+        if (log.picture !== null) charts.last_switch.show(log.picture);
         this.show_flags(log.flags);
         element("log-notes").replaceChildren(...[...log.notes, ...settings_note(log.settings)].map((note) => made("li", note)));
         const switches = log.n_switches > 0 ? `, ${log.n_switches} switches (rms dP ${short(log.rms_dp_arcsec, 3)} arcsec)` : "";

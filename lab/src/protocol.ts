@@ -91,7 +91,7 @@ export interface LogPicture {
     difference: Columns; // time; angle as read and by the paper, each less the configured one
     light: Columns; // time, detuning, piezo voltage
     allan: Columns; // tau; deviation as read, by the paper, as configured, arcsec/s
-    pictures: SwitchPicture[];
+    picture: SwitchPicture | null; // of the last switch
 }
 
 // What the theory says of the gyro, for charts. The last column of each has the gyro itself, the others nothing to do with it: NaN
@@ -126,7 +126,7 @@ export interface Frame {
     now: Float64Array; // LiveRun::now
     signals: Columns; // LiveRun's columns of the last window, thinned
     error: Columns; // time, errors as read, by the paper, as configured, of the other gyro: the whole run, thinned
-    pictures: SwitchPicture[]; // drawn since the frame before
+    picture: SwitchPicture | null; // of the last switch, where it was drawn since the frame before
     switches: SwitchRow[]; // that were added since the frame before
     allan: Columns; // tau, deviation as read, by the paper, as configured, arcsec/s
     module_bytes: number; // of its memory

@@ -277,7 +277,7 @@ class Pace {
             now: module.now(),
             signals: recorder.signals(this.window_s),
             error: recorder.error(),
-            pictures: recorder.pictures.take(),
+            picture: recorder.pictures.take(),
             switches: recorder.new_switches(),
             allan: recorder.allan(),
             module_bytes: module.calls.memory.buffer.byteLength,
