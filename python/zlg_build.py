@@ -1,11 +1,10 @@
 """Builds the wheel of zlg: CMake makes the package, this packs it. Needs nothing from the network.
 
-python3 -m build --wheel --no-isolation; without --wheel it packs the sources, and builds the wheel from them.
+python3 -m build --wheel --no-isolation
 """
 
 import base64
 import hashlib
-import io
 import os
 import pathlib
 import re
@@ -13,11 +12,9 @@ import shutil
 import subprocess
 import sys
 import sysconfig
-import tarfile
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-LEFT_OUT = {".git", "build", "dist", "__pycache__"}
 
 
 def version():
@@ -57,9 +54,6 @@ def tag():
 
 def get_requires_for_build_wheel(config_settings=None):
     return []
-
-
-get_requires_for_build_sdist = get_requires_for_build_wheel
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
@@ -103,32 +97,3 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         for member, content in contents.items():
             archive.writestr(zipfile.ZipInfo(member, (1980, 1, 1, 0, 0, 0)), content, zipfile.ZIP_DEFLATED)
     return name
-
-
-def listed_by_git():
-    """The files of a checkout that git knows; None where this is none, as in an unpacked sdist, or git is not there."""
-    if not (ROOT / ".git").exists() or shutil.which("git") is None:
-        return None
-    done = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z"], capture_output=True, text=True)
-    return [ROOT / name for name in done.stdout.split("\0") if name] if done.returncode == 0 else None
-
-
-def source_files():
-    listed = listed_by_git()
-    if listed is not None:
-        yield from (path for path in sorted(listed) if path.is_file())
-        return
-    for folder, folders, files in os.walk(ROOT):
-        folders[:] = sorted(f for f in folders if f not in LEFT_OUT and not f.startswith("."))
-        yield from (pathlib.Path(folder) / f for f in sorted(files) if not f.endswith((".whl", ".tar.gz", ".part")))
-
-
-def build_sdist(sdist_directory, config_settings=None):
-    base = f"zlg-{version()}"
-    with tarfile.open(pathlib.Path(sdist_directory) / f"{base}.tar.gz", "w:gz", format=tarfile.PAX_FORMAT) as archive:
-        for path in source_files():
-            archive.add(path, f"{base}/{path.relative_to(ROOT)}", recursive=False)
-        head = tarfile.TarInfo(f"{base}/PKG-INFO")
-        head.size = len(metadata())
-        archive.addfile(head, io.BytesIO(metadata().encode()))
-    return f"{base}.tar.gz"

@@ -1,12 +1,9 @@
 // The theory of the designer for a configured gyro.
 #include "design_formulas.hpp"
 
-#include <algorithm>
-#include <array>
 #include <limits>
 
 #include <zlg/config/schema.hpp>
-#include <zlg/core/compensation/polynomial_fit.hpp>
 #include <zlg/design/drift_budget.hpp>
 #include <zlg/design/error.hpp>
 #include <zlg/design/interval_formula.hpp>
@@ -15,8 +12,6 @@
 
 namespace zlg::lab {
 namespace {
-
-constexpr int longest_gap = 32;  // positions of the fit are at most 64
 
 template <class Work>
 double number(const Work& work) {
@@ -49,25 +44,6 @@ double interval_s(const config::Config& config, IntervalLaw law, double run_s, d
                    ? design::closed_form_interval_s(task)
                    : design::expected_optimum(task, config.switching.first_segment).interval_s;
     });
-}
-
-std::vector<double> gap_weights(const config::Compensation& points, bool extrapolates, int order, int gap_ticks) {
-    gap_ticks = std::clamp(gap_ticks, 1, longest_gap);
-    std::array<std::int32_t, core::max_fit_points> position{};
-    int n = 0;
-    const auto add = [&](int first, int count) {
-        for (int k = 0; k < count && n < core::max_fit_points; ++k) position[static_cast<std::size_t>(n++)] = first + k;
-    };
-    const int before = extrapolates ? points.extrapolation_points : points.points_before;
-    add(1 - before, before);
-    if (!extrapolates) add(gap_ticks + 1, points.points_after);
-    const core::PolynomialFit fit{position, n, order};
-    std::vector<double> sum(static_cast<std::size_t>(n));
-    for (int j = 1; j <= gap_ticks; ++j) {
-        const core::FitWeights weights = fit.weights(j);
-        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weights[k];
-    }
-    return sum;
 }
 
 }  // namespace zlg::lab

@@ -1,8 +1,6 @@
 #pragma once
 // What the theory of the designer says of a configured gyro, as numbers for charts beside the gyro that runs.
 
-#include <vector>
-
 #include <zlg/config/config.hpp>
 
 namespace zlg::lab {
@@ -27,14 +25,5 @@ enum class IntervalLaw { expected, closed_form };
 // return  NaN where the theory refuses the case, infinite where the law has none.
 [[nodiscard]] double interval_s(const config::Config& config, IntervalLaw law, double run_s,
                                 double switch_error_arcsec);
-
-// The weights W of a gap of so many ticks, eqs (14) and (15), with the points of [compensation]: what the polynomial
-// puts in place of the gap is the sum of W times the points. They stand in the order of the points' places: 1 - e ...
-// 0, or 1 - b ... 0 and n + 1 ... n + a, where the gap has the ticks 1 ... n.
-//
-// order      0..2; lowered where there are too few points, as in the gyro.
-// gap_ticks  1..32.
-[[nodiscard]] std::vector<double> gap_weights(const config::Compensation& points, bool extrapolates, int order,
-                                              int gap_ticks);
 
 }  // namespace zlg::lab

@@ -28,9 +28,9 @@ rig::Replay replay_of(const config::Config& config, core::RelockMethod relock, c
 }  // namespace
 
 LiveRun::LiveRun(const config::Config& config, const std::optional<config::Config>& other,
-                 std::shared_ptr<const HandTurns> hand, const MotionColumn& column)
+                 std::shared_ptr<const HandTurns> hand)
     : config_{config},
-      run_{config, hand, column},
+      run_{config, hand},
       configured_{config},
       compared_{
           Compared{replay_of(config, core::RelockMethod::none, core::BridgeMethod::none), ErrorTrack{config}},
@@ -38,7 +38,7 @@ LiveRun::LiveRun(const config::Config& config, const std::optional<config::Confi
       switches_{config.compensation.relock_ticks} {
     if (!other) return;
     try {
-        other_.emplace(*other, std::move(hand), column);
+        other_.emplace(*other, std::move(hand));
     } catch (const config::ConfigError& error) {
         refuse_other(error);
     }
@@ -106,10 +106,7 @@ void LiveRun::add_signals(const rig::LoopHalf& first, const rig::LoopHalf& secon
     const std::int64_t tick = second.record.half / 2;
     const WaitingTick& seen = waiting(tick);
     const core::LightSamples light = run_.light();
-    const auto bias_counts = static_cast<double>(first.record.bias_sign * first.record.counts +
-                                                 second.record.bias_sign * second.record.counts);
-    const auto flag = [](bool value) { return value ? 1.0 : 0.0; };
-    const std::array<double, 12> row{static_cast<double>(tick + 1) * tick_s,
+    const std::array<double, 10> row{static_cast<double>(tick + 1) * tick_s,
                                      seen.true_arcsec / tick_s,
                                      seen.read_arcsec / tick_s,
                                      second.record.detuning_lambda,
@@ -117,9 +114,7 @@ void LiveRun::add_signals(const rig::LoopHalf& first, const rig::LoopHalf& secon
                                      mean(light.a),
                                      mean(light.b),
                                      static_cast<double>(second.record.mode),
-                                     flag(first.record.loop_closed && second.record.loop_closed),
-                                     flag(first.record.valid && second.record.valid),
-                                     bias_counts / tick_s,
+                                     first.record.loop_closed && second.record.loop_closed ? 1.0 : 0.0,
                                      static_cast<double>(first.control.health | second.control.health)};
     std::vector<double>& rows = rows_[static_cast<std::size_t>(View::signals)];
     rows.insert(rows.end(), row.begin(), row.end());
@@ -140,17 +135,15 @@ void LiveRun::add_angles() {
     while (!read.empty() && !paper.empty() && !configured.empty() && !(other_ && other_error_arcsec_.empty())) {
         const core::AngleRow row = final_.take_front();
         const WaitingTick& seen = waiting(row.tick);
-        const std::array<double, 11> numbers{static_cast<double>(row.tick),
-                                             seen.true_arcsec,
-                                             seen.read_arcsec,
-                                             row.dtheta_arcsec,
-                                             row.dtheta_final_arcsec,
-                                             row.sigma_arcsec,
-                                             static_cast<double>(row.flags),
-                                             read.take_front(),
-                                             paper.take_front(),
-                                             configured.take_front(),
-                                             other_ ? other_error_arcsec_.take_front() : unknown};
+        const std::array<double, 9> numbers{static_cast<double>(row.tick),
+                                            seen.true_arcsec,
+                                            seen.read_arcsec,
+                                            row.dtheta_arcsec,
+                                            row.dtheta_final_arcsec,
+                                            read.take_front(),
+                                            paper.take_front(),
+                                            configured.take_front(),
+                                            other_ ? other_error_arcsec_.take_front() : unknown};
         rows.insert(rows.end(), numbers.begin(), numbers.end());
     }
 }
@@ -161,12 +154,11 @@ void LiveRun::add_switches() {
     for (ErrorTrack* track : {&compared_[0].track, &compared_[1].track, &configured_}) {
         while (const study::SwitchError* error = track->next_switch()) {
             const study::SwitchWindow& window = error->window;
-            const std::array<double, 7> row{which,
+            const std::array<double, 6> row{which,
                                             static_cast<double>(window.first_tick),
                                             static_cast<double>(window.n_ticks),
                                             static_cast<double>(window.last_tick),
                                             static_cast<double>(window.mode_after),
-                                            window.miss_lambda,
                                             error->error_arcsec};
             rows.insert(rows.end(), row.begin(), row.end());
         }

@@ -33,11 +33,10 @@ class LiveRun {
 public:
     // other  a second gyro on the same motion, whose error of the angle is shown beside; nothing: none.
     // hand   turns that are added to the motion of both, in the order of their times, later ones while the gyro runs.
-    // column  of a motion file, as for LoopRun.
     //
     // errors  as LoopRun.
     LiveRun(const config::Config& config, const std::optional<config::Config>& other,
-            std::shared_ptr<const HandTurns> hand, const MotionColumn& column);
+            std::shared_ptr<const HandTurns> hand);
 
     // One half-period of bias, and the rows that are settled by it.
     //
@@ -45,16 +44,11 @@ public:
     void advance();
 
     //   signals   a row a tick: time at its end, s; true and measured rate, arcsec/s; detuning, lambda; piezo voltage,
-    //   V; light
-    //             of beam A and B; mode; 1 where the loop is closed; 1 where both halves are valid; bias frequency, Hz;
-    //             bits of health
-    //   angles    a row a tick, some ticks later: tick; its true, read, delivered and final increment, arcsec; sigma of
-    //   the final
-    //             one; flags; error of the angle, arcsec: as read, by the paper, as configured, of the other gyro (NaN
-    //             without)
+    //             V; light of beam A and B; mode; 1 where the loop is closed; bits of health
+    //   angles    a row a tick, some ticks later: tick; its true, read, delivered and final increment, arcsec; error of
+    //             the angle, arcsec: as read, by the paper, as configured, of the other gyro (NaN without)
     //   switches  a row for each switch and compensation (0 as read, 1 by the paper, 2 as configured): compensation;
-    //   first tick;
-    //             ticks of the gap; last tick; mode after; miss, lambda; error, arcsec
+    //             first tick; ticks of the gap; last tick; mode after; error, arcsec
     [[nodiscard]] const std::vector<double>& rows(View view) const { return rows_[static_cast<std::size_t>(view)]; }
     void forget();
 

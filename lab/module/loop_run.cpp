@@ -11,19 +11,6 @@
 namespace zlg::lab {
 namespace {
 
-twin::Motion motion(const config::Motion& of_file, const MotionColumn& column) {
-    std::vector<double> increments_arcsec;
-    increments_arcsec.reserve(column.values.size());
-    for (const double value : column.values) increments_arcsec.push_back(rig::motion_increment_arcsec(of_file, value));
-    return twin::Motion::from_increments(std::move(increments_arcsec), of_file.rate_hz);
-}
-
-twin::Motion motion(const config::Config& config, const MotionColumn& column) {
-    const bool has_column = !column.values.empty() && column.path == config.motion.path;
-    return config.motion.kind == config::MotionKind::file && has_column ? motion(config.motion, column)
-                                                                        : rig::motion(config);
-}
-
 twin::Motion turned(const twin::Motion& motion, std::shared_ptr<const HandTurns> hand) {
     return hand ? twin::Motion::with_steps(motion, std::move(hand)) : motion;
 }
@@ -41,8 +28,8 @@ config::Config configured(std::span<const std::string> settings) {
     return rig::agreed_with_laser(asked(settings)).config;
 }
 
-LoopRun::LoopRun(const config::Config& config, std::shared_ptr<const HandTurns> hand, const MotionColumn& column)
-    : LoopRun{config, motion(config, column), std::move(hand)} {}
+LoopRun::LoopRun(const config::Config& config, std::shared_ptr<const HandTurns> hand)
+    : LoopRun{config, rig::motion(config), std::move(hand)} {}
 
 LoopRun::LoopRun(const config::Config& config, twin::Motion motion, std::shared_ptr<const HandTurns> hand)
     : tick_s_{config.gyro.tick_s},

@@ -26,21 +26,12 @@ namespace zlg::lab {
 
 using HandTurns = std::vector<twin::RateStep>;
 
-// The column of a motion file that the page has read, as it stands there.
-struct MotionColumn {
-    std::string path;  // in place of the file of this name
-    std::vector<double> values;
-};
-
 class LoopRun {
 public:
     // hand    turns that are added to the motion of the configuration, while the gyro runs; null: none.
-    // column  for the motion of the kind "file".
-    // errors  config::ConfigError where the configuration makes no gyro; here another motion file makes none, and the
-    // best interval is
-    //         not sought.
-    explicit LoopRun(const config::Config& config, std::shared_ptr<const HandTurns> hand = nullptr,
-                     const MotionColumn& column = {});
+    // errors  config::ConfigError where the configuration makes no gyro; here a motion file makes none, and the best
+    //         interval is not sought.
+    explicit LoopRun(const config::Config& config, std::shared_ptr<const HandTurns> hand = nullptr);
 
     // One half-period of bias; `on_row` is called with the core::AngleRow that is settled by it, where there is one.
     //

@@ -39,8 +39,6 @@ struct Page {
     std::optional<std::string> other;  // settings of the second gyro, over those of the first
     config::Config asked;
     std::shared_ptr<lab::HandTurns> hand = std::make_shared<lab::HandTurns>();
-    lab::MotionColumn column;
-    std::vector<double> weights;  // of a gap
     std::unique_ptr<lab::LiveRun> run;
     std::unique_ptr<lab::LogRun> log;
 };
@@ -86,7 +84,7 @@ void configure() {
             lab::refuse_other(error);
         }
     }
-    page().run = std::make_unique<lab::LiveRun>(config, other, page().hand, page().column);
+    page().run = std::make_unique<lab::LiveRun>(config, other, page().hand);
     page().asked = std::move(asked);
 }
 
@@ -115,24 +113,13 @@ ZLG_EXPORT(zlg_other) void zlg_other(int wanted) {
     page().other = wanted != 0 ? std::optional{page().text} : std::nullopt;
 }
 
-// From the next zlg_configure on, the motion of the kind "file" whose path is the text: so many values of the file's
-// column, which go where this points.
-ZLG_EXPORT(zlg_motion) double* zlg_motion(std::size_t values) {
-    page().column = {page().text, std::vector<double>(values)};
-    return page().column.values.data();
-}
-
 // What the theory says of the gyro that was configured (design_formulas.hpp), with the numbers of its enumerators: the
-// drift of a budget, the best interval by a law, the weights with which a gap is bridged.
+// drift of a budget, the best interval by a law.
 ZLG_EXPORT(zlg_drift) double zlg_drift(std::uint32_t budget, double interval_s, double run_s, double error_arcsec) {
     return lab::drift_arcsec_s(page().asked, static_cast<lab::Budget>(budget), interval_s, run_s, error_arcsec);
 }
 ZLG_EXPORT(zlg_interval) double zlg_interval(std::uint32_t law, double run_s, double error_arcsec) {
     return lab::interval_s(page().asked, static_cast<lab::IntervalLaw>(law), run_s, error_arcsec);
-}
-ZLG_EXPORT(zlg_gap_weights) const double* zlg_gap_weights(int extrapolates, int order, int gap_ticks) {
-    page().weights = lab::gap_weights(page().asked.compensation, extrapolates != 0, order, gap_ticks);
-    return page().weights.data();
 }
 
 // So many half-periods of bias, also beyond run.duration_s.

@@ -1,8 +1,8 @@
 // The three ways in which the same counts are worked up, under one name and colour each wherever they stand.
 export const compensations = [
-    { label: "as read", colour: "--read", print: "#b42318" },
-    { label: "as in the paper", colour: "--paper", print: "#b26a00" },
-    { label: "as configured", colour: "--ours", print: "#0b5cad" },
+    { label: "as read", colour: "--read" },
+    { label: "as in the paper", colour: "--paper" },
+    { label: "as configured", colour: "--ours" },
 ];
 
 export function compared_lines(unit: string): { label: string; colour: string; unit: string }[] {

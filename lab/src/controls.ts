@@ -12,7 +12,7 @@ const important = new Map([
     ["perimeter.loop", "Control of the perimeter"], ["gyro.readout", "Readout of the beat"], ["gyro.light_noise_lambda", "Noise of a light sample"],
     ["piezo.half_wave_v", "Half-wave voltage"], ["run.seed", "Seed of all random numbers"],
 ]);
-// A kind of motion that is chosen in the card of recorded motions.
+// A kind of motion that the page has not.
 const recorded = '"file"';
 const is_motion_kind = (key: Key) => key.section === "motion" && key.name === "kind";
 // Of the laboratory's files and the designer's tables: they change nothing here.
@@ -167,7 +167,7 @@ export class Controls {
 // The best interval is found by trials, which the page does not make.
 function allowed_here(key: Key): string {
     if (key.kind === "interval") return `${key.allowed.replace(/, or "optimal"$/, "")}; the best one stands in “How often to switch”`;
-    return is_motion_kind(key) ? key.allowed.replace(`, ${recorded}`, "; for a file, “Recorded motions”") : key.allowed;
+    return is_motion_kind(key) ? key.allowed.replace(`, ${recorded}`, "") : key.allowed;
 }
 
 function by_key(settings: string[]): Map<string, string> {
@@ -194,7 +194,7 @@ function text_field(value: string): HTMLInputElement {
 
 function choice(key: Key, value: string): HTMLSelectElement {
     const field = document.createElement("select");
-    const choices = is_motion_kind(key) && value !== recorded ? key.choices.filter((name) => `"${name}"` !== recorded) : key.choices;
+    const choices = is_motion_kind(key) ? key.choices.filter((name) => `"${name}"` !== recorded) : key.choices;
     const names = key.kind === "optional_choice" ? ["", ...choices] : choices;
     for (const name of names) field.add(new Option(name === "" ? "unset" : name.replaceAll("_", " "), name));
     field.value = bare(key, value);

@@ -17,11 +17,11 @@ export function made<Name extends keyof HTMLElementTagNameMap>(name: Name, text 
 }
 
 // A new part of a drawing, in its parent.
-export function part(parent: Element | null, name: string, attributes: Record<string, string | number>, text = ""): SVGElement {
+export function part(parent: Element, name: string, attributes: Record<string, string | number>, text = ""): SVGElement {
     const made = document.createElementNS("http://www.w3.org/2000/svg", name) as SVGElement;
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
     if (text) made.textContent = text;
-    parent?.append(made);
+    parent.append(made);
     return made;
 }
 

@@ -16,9 +16,9 @@ export class Frames {
 
     // What is told once only is kept of a frame that is not drawn.
     take(frame: Frame): void {
-        const { switches, pictures } = this.waiting ?? { switches: [], pictures: [] };
+        const { switches, picture } = this.waiting ?? { switches: [], picture: null };
         const is_first = this.waiting === null;
-        this.waiting = { ...frame, switches: [...switches, ...frame.switches], pictures: [...pictures, ...frame.pictures] };
+        this.waiting = { ...frame, switches: [...switches, ...frame.switches], picture: frame.picture ?? picture };
         if (!is_first) return;
         // A hidden page draws nothing of itself.
         if (document.hidden) setTimeout(() => this.show(), hidden_ms);

@@ -30,7 +30,7 @@ class LogRecorder {
     private readonly deviations: AllanDeviation[];
     private readonly rows = new Ring(tick_columns, newest_ticks);
     private readonly pictures: SwitchPictures;
-    private newest: LogPicture["pictures"] = [];
+    private newest: LogPicture["picture"] = null;
     private n_switches = 0;
     private squares = 0;
 
@@ -49,7 +49,7 @@ class LogRecorder {
             this.pictures.expect({ first_tick, gap_ticks, last_tick: first_tick + gap_ticks + longest_relock_ticks, mode_after, cost_arcsec: dp_arcsec });
         }
         this.pictures.settle();
-        this.keep_pictures();
+        this.newest = this.pictures.take() ?? this.newest;
     }
 
     private take_tick(row: Float64Array): void {
@@ -68,14 +68,8 @@ class LogRecorder {
         ++this.ticks;
     }
 
-    private keep_pictures(): void {
-        const more = this.pictures.take();
-        this.newest = [...this.newest.filter((old) => more.every((picture) => picture.first_tick !== old.first_tick)), ...more].slice(-8);
-    }
-
     picture(): Omit<LogPicture, "name" | "kind" | "tick_s" | "notes" | "settings"> {
         this.pictures.settle(true);
-        this.keep_pictures();
         return {
             ticks: this.ticks,
             gaps: this.gaps,
@@ -88,7 +82,7 @@ class LogRecorder {
             difference: this.difference.columns(2),
             light: this.light.columns(2),
             allan: allan_columns(this.deviations),
-            pictures: this.newest,
+            picture: this.pictures.take() ?? this.newest,
         };
     }
 }

@@ -2,13 +2,13 @@
 import { compared_lines } from "./compensations";
 import { GyroClient } from "./client";
 import { element, finite, lines_of, made, positive } from "./elements";
-import { save } from "./export";
-import { MagnifiedSwitches } from "./magnified";
+import { save } from "./files";
+import { MagnifiedSwitch } from "./magnified";
 import { Chart, short } from "./plots";
 import type { LogPicture } from "./protocol";
 
 export class LogView {
-    private charts: { angle: Chart; rate: Chart; difference: Chart; detuning: Chart; piezo: Chart; allan: Chart; switches: MagnifiedSwitches } | null = null;
+    private charts: { angle: Chart; rate: Chart; difference: Chart; detuning: Chart; piezo: Chart; allan: Chart; last_switch: MagnifiedSwitch } | null = null;
     private worker: GyroClient | null = null;
     private file: File | null = null;
 
@@ -33,14 +33,6 @@ export class LogView {
         this.read(false);
     }
 
-    // What was opened as a log is a motion.
-    hand_over(take: (file: File) => void): void {
-        if (this.file === null) return;
-        element("card-log").hidden = true;
-        element("card-motions").scrollIntoView({ block: "center" });
-        take(this.file);
-    }
-
     private read(for_saving: boolean): void {
         const file = this.file;
         if (file === null) return;
@@ -61,7 +53,7 @@ export class LogView {
             },
             log_read: ({ log }) => this.show(log),
             log_angles: ({ name, text }) => {
-                save(`${name.replace(/\.[^.]*$/, "")}-angles.csv`, "text/csv", text);
+                save(`${name.replace(/\.[^.]*$/, "")}-angles.csv`, text);
                 this.finish(`The angles of ${name} are saved.`, "shown");
             },
         });
@@ -84,7 +76,6 @@ export class LogView {
     private say(text: string, state: string): void {
         element("log-text").textContent = text;
         element("card-log").dataset.state = state;
-        element("log-as-motion").hidden = state === "reading";
         element("log-work").hidden = state !== "reading";
         element("log-text").classList.toggle("wrong", state === "refused");
         element<HTMLButtonElement>("log-again").disabled = state === "reading";
@@ -101,7 +92,7 @@ export class LogView {
             detuning: chart("detuning", "detuning, λ", [{ label: "detuning of the perimeter", colour: "--ours", unit: "λ" }]),
             piezo: chart("piezo", "piezo, V", [{ label: "voltage at the piezo mirrors", colour: "--paper", unit: "V" }]),
             allan: chart("allan", "deviation, deg/h", compared_lines("deg/h"), { x: "averaging time, s", log_x: true, log_y: true, sync: "" }),
-            switches: new MagnifiedSwitches("log-switch", "Extrapolated less interpolated, dP", false),
+            last_switch: new MagnifiedSwitch("log-switch", "Extrapolated less interpolated, dP", false),
         };
         return this.charts;
     }
@@ -119,9 +110,8 @@ export class LogView {
         element("plot-log-detuning").hidden = empty(log.light, 1);
         element("plot-log-piezo").hidden = empty(log.light, 2);
         element("log-difference").hidden = empty(log.difference, 1);
-        element("log-switches").hidden = log.pictures.length === 0;
-        charts.switches.begin("");
-        charts.switches.add(log.pictures);
+        element("log-switches").hidden = log.picture === null;
+        if (log.picture !== null) charts.last_switch.show(log.picture);
         this.show_flags(log.flags);
         element("log-notes").replaceChildren(...[...log.notes, ...settings_note(log.settings)].map((note) => made("li", note)));
         const switches = log.n_switches > 0 ? `, ${log.n_switches} switches (rms dP ${short(log.rms_dp_arcsec, 3)} arcsec)` : "";

@@ -34,8 +34,6 @@ interface Exports {
     // What design_formulas.hpp has; arcsec/s, NaN where the theory has no answer.
     zlg_drift(budget: Budget, interval_s: number, run_s: number, switch_error_arcsec: number): number;
     zlg_interval(law: IntervalLaw, run_s: number, switch_error_arcsec: number): number;
-    zlg_gap_weights(extrapolates: number, order: number, gap_ticks: number): number;
-    zlg_motion(values: number): number;
     zlg_advance(halves: number): number;
     zlg_turn(rate_arcsec_s: number): number;
     zlg_let_go(): void; // all turns are forgotten
@@ -91,19 +89,6 @@ export class LoopModule {
         this.calls.zlg_other(other === null ? 0 : 1);
         this.hand_over(settings);
         this.done(this.calls.zlg_configure());
-    }
-
-    // points  their number.
-    gap_weights(extrapolates: boolean, order: number, gap_ticks: number, points: number): number[] {
-        const place = this.calls.zlg_gap_weights(extrapolates ? 1 : 0, order, gap_ticks);
-        return Array.from(new Float64Array(this.calls.memory.buffer, place, points));
-    }
-
-    // The column of a motion file, for gyros that are configured later with this path.
-    take_motion(path: string, values: Float64Array): void {
-        this.hand_over([path]);
-        const place = this.calls.zlg_motion(values.length);
-        new Float64Array(this.calls.memory.buffer, place, values.length).set(values);
     }
 
     advance(halves: number): void {

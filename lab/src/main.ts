@@ -2,7 +2,6 @@
 import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
 import { element, marked } from "./elements";
-import { listen_to_exports } from "./export";
 import { fault_buttons, type MadeFault, made_fault, words_without_alarm, with_fault } from "./faults";
 import { DesignView } from "./design_view";
 import { choose_file, on_drop } from "./files";
@@ -12,11 +11,10 @@ import { Frames } from "./frames";
 import { turn_by_hand } from "./hand";
 import { HealthList } from "./health";
 import { LogView } from "./log_view";
-import { Motions, with_motion } from "./motions";
 import { keep_charts, short } from "./plots";
 import type { Fault, Frame, Key, Schema, State } from "./protocol";
 import { never_s, RingDrawing, switches_again } from "./ring";
-import { choose_second_gyro, has_own_second, leave_out_second_gyro, listen_to_second_gyro, second_gyro } from "./second_gyro";
+import { choose_second_gyro, leave_out_second_gyro, listen_to_second_gyro, second_gyro } from "./second_gyro";
 import { Settings } from "./settings";
 import { share_dialog } from "./share";
 import { type Step, Tour } from "./tour";
@@ -41,8 +39,7 @@ class Lab {
     private readonly client: GyroClient;
     private readonly tour: Tour;
     private readonly log: LogView;
-    private readonly design = new DesignView((switch_error_arcsec, passes_zero) => this.client.send({ kind: "design", switch_error_arcsec, passes_zero }));
-    private readonly motions = new Motions(() => this.client);
+    private readonly design = new DesignView((switch_error_arcsec) => this.client.send({ kind: "design", switch_error_arcsec }));
     private keys: Key[] = [];
     private flag_names: string[] = []; // of an angle log
     private controls: Controls | null = null;
@@ -66,12 +63,6 @@ class Lab {
             configured: ({ changed }) => this.configured(changed, !this.client.waits()),
             refused: ({ message, whole }) => this.refuse(message, whole),
             designed: ({ design }) => this.design.show(design),
-            motion_read: ({ settings, note }) => {
-                this.motions.say(note, false);
-                this.wants_to_run = true;
-                this.begin(with_motion(this.asked.settings, settings));
-            },
-            motion_refused: ({ message }) => this.motions.say(message, true),
             frame: (frame) => this.frames.take(frame),
         });
         this.listen();
@@ -153,7 +144,7 @@ class Lab {
 
     private show_state(state: State): void {
         marked("state").textContent = state;
-        element("run").textContent = state === "running" ? "Pause" : state === "done" ? (this.asked.until_s === null ? "Again" : "Go on") : "Run";
+        element("run").textContent = state === "running" ? "Pause" : state === "done" ? "Go on" : "Run";
         for (const id of ["run", "step-half", "step-tick"]) element<HTMLButtonElement>(id).disabled = state === "refused";
         element<HTMLButtonElement>("jump").disabled = state === "refused" || (this.frame !== null && !switches_again(this.frame));
     }
@@ -227,8 +218,8 @@ class Lab {
         const state = this.frame?.state;
         if (state === "done") {
             this.wants_to_run = true;
-            // Beyond the end of a link it goes on; a recorded motion begins again.
-            this.begin(this.asked.settings, { from_s: this.asked.until_s === null ? 0 : this.time_s });
+            // Beyond the end of a link it goes on.
+            this.begin(this.asked.settings, { from_s: this.time_s });
             return;
         }
         this.wants_to_run = state !== "running";
@@ -269,11 +260,9 @@ class Lab {
         window.addEventListener("hashchange", () => this.open_link());
         choose_file(element("open-log"), element<HTMLInputElement>("log-file"), (file) => this.log.open(file));
         on_drop((file) => this.log.open(file));
-        element("log-as-motion").addEventListener("click", () => this.log.hand_over((file) => this.motions.read(file)));
         turn_by_hand((rate_arcsec_s) => this.client.send({ kind: "turn", rate_arcsec_s }));
         listen_to_second_gyro(() => this.begin(this.asked.settings, { from_s: this.repeat_s() }));
-        listen_to_exports(() => ({ settings: this.settings, frame: this.frame }));
-        share_dialog(() => ({ settings: this.settings, time_s: this.time_s, turned: this.frame?.turned ?? false, has_own_second: has_own_second() }));
+        share_dialog(() => ({ settings: this.settings, time_s: this.time_s, turned: this.frame?.turned ?? false }));
     }
 }
 

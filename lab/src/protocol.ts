@@ -47,8 +47,7 @@ export type ToWorker =
     | { kind: "turn"; rate_arcsec_s: number } // by hand, from now on
     | { kind: "window"; window_s: number } // of the signals that are shown
     | { kind: "read_log"; file: File; settings: string[]; save: boolean } // save: its angles as a file, in place of a picture
-    | { kind: "design"; switch_error_arcsec: number | null; passes_zero: boolean } // null: not measured; the rate in the middle of a gap: else it has an extremum there
-    | { kind: "read_motion"; file: File }
+    | { kind: "design"; switch_error_arcsec: number | null } // null: not measured
     | { kind: "seen" }; // a frame: the next may come
 
 // Columns of equal length.
@@ -60,7 +59,6 @@ export interface SwitchRow {
     gap_ticks: number;
     last_tick: number;
     mode_after: number;
-    miss_lambda: number;
     error_arcsec: number;
 }
 
@@ -93,7 +91,7 @@ export interface LogPicture {
     difference: Columns; // time; angle as read and by the paper, each less the configured one
     light: Columns; // time, detuning, piezo voltage
     allan: Columns; // tau; deviation as read, by the paper, as configured, arcsec/s
-    pictures: SwitchPicture[];
+    picture: SwitchPicture | null; // of the last switch
 }
 
 // What the theory says of the gyro, for charts. The last column of each has the gyro itself, the others nothing to do with it: NaN
@@ -108,16 +106,6 @@ export interface Design {
     best_drift_arcsec_s: number;
     drift: Columns; // interval, s; expected in a sixth of the run, in the run, in ten times the run; in the run by (7), at its worst end
     interval: Columns; // length of the run, s; best interval, sqrt(dP t/Om), s
-    // Error of a gap, arcsec: interpolated by constant, line, parabola, extrapolated by constant, line, parabola.
-    gap_ticks: number;
-    amplitude_arcsec_s: number;
-    frequency_hz: number;
-    oscillates: boolean; // else these are only examples
-    error_arcsec: number[]; // of the strongest oscillation
-    noise_arcsec: number[]; // three sigma
-    by_frequency: Columns; // Hz
-    by_amplitude: Columns; // arcsec/s
-    noise: Columns; // ticks of the gap
 }
 
 // Bits of health that were raised, in switches and else.
@@ -138,7 +126,7 @@ export interface Frame {
     now: Float64Array; // LiveRun::now
     signals: Columns; // LiveRun's columns of the last window, thinned
     error: Columns; // time, errors as read, by the paper, as configured, of the other gyro: the whole run, thinned
-    pictures: SwitchPicture[]; // drawn since the frame before
+    picture: SwitchPicture | null; // of the last switch, where it was drawn since the frame before
     switches: SwitchRow[]; // that were added since the frame before
     allan: Columns; // tau, deviation as read, by the paper, as configured, arcsec/s
     module_bytes: number; // of its memory
@@ -151,8 +139,6 @@ export type FromWorker =
     | { kind: "configured"; number: number; changed: string[] }
     | { kind: "refused"; number: number; message: string; whole: boolean } // what was to be configured, or the gyro in its run; whole: there is none any more that could go on
     | { kind: "designed"; design: Design }
-    | { kind: "motion_read"; name: string; settings: string[]; note: string } // the settings with which it moves a gyro
-    | { kind: "motion_refused"; message: string }
     | { kind: "log_progress"; fraction: number; ticks: number }
     | { kind: "log_read"; log: LogPicture }
     | { kind: "log_angles"; name: string; text: Blob }

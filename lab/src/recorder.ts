@@ -3,9 +3,9 @@ import type { Columns, Raised, SwitchRow } from "./protocol";
 import { AllanDeviation, allan_columns, Ring, Thinned } from "./series";
 import { SwitchPictures } from "./switch_pictures";
 
-const signal_columns = 12;
-const angle_columns = 11;
-const switch_columns = 7;
+const signal_columns = 10;
+const angle_columns = 9;
+const switch_columns = 6;
 const newest_ticks = 32768;
 const most_points = 1200;
 const configured = 2; // among the compensations of a switch
@@ -13,9 +13,9 @@ const configured = 2; // among the compensations of a switch
 // Of signals: the column by whose peaks they are thinned, and others.
 const time_column = 0;
 const detuning_column = 3;
-const health_column = 11;
+const health_column = 9;
 // Of angles.
-const error_columns = [7, 8, 9, 10];
+const error_columns = [5, 6, 7, 8];
 
 export class Recorder {
     private readonly signal_rows = new Ring(signal_columns, newest_ticks);
@@ -61,9 +61,8 @@ export class Recorder {
     }
 
     private take_switch(row: Float64Array): void {
-        const [compensation, first_tick, gap_ticks, last_tick, mode_after, miss_lambda, error_arcsec] = row;
-        const found = { compensation, first_tick, gap_ticks, last_tick, mode_after, miss_lambda, error_arcsec };
-        this.unsent.push(found);
+        const [compensation, first_tick, gap_ticks, last_tick, mode_after, error_arcsec] = row;
+        this.unsent.push({ compensation, first_tick, gap_ticks, last_tick, mode_after, error_arcsec });
         if (compensation !== configured) return;
         this.pictures.expect({ first_tick, gap_ticks, last_tick, mode_after, cost_arcsec: error_arcsec });
         this.has_new_switch = true;

@@ -1,10 +1,9 @@
-// The worker's pictures of single switches: the rates tick by tick around each gap.
+// The worker's picture of the last switch: the rates tick by tick around each gap.
 import type { SwitchPicture } from "./protocol";
 import type { Ring } from "./series";
 
 const ticks_around = 12;
 const longest_relock_ticks = 40; // that is shown
-const kept = 8;
 
 export interface SwitchFacts {
     first_tick: number;
@@ -24,7 +23,7 @@ export interface IncrementColumns {
 
 export class SwitchPictures {
     private waiting: SwitchFacts[] = []; // whose ticks after the re-lock have not all come
-    private pictures: SwitchPicture[] = [];
+    private newest: SwitchPicture | null = null;
 
     // ring  increments, whose row is that of their tick's number.
     constructor(
@@ -43,10 +42,10 @@ export class SwitchPictures {
         while (this.waiting.length > 0 && (at_end || this.ring.end >= last_shown(this.waiting[0]))) this.draw(this.waiting.shift()!);
     }
 
-    // Drawn since this was asked last, at most the newest few; one may come twice, the second time whole.
-    take(): SwitchPicture[] {
-        const found = this.pictures;
-        this.pictures = [];
+    // The last that was drawn since this was asked last; one may come twice, the second time whole.
+    take(): SwitchPicture | null {
+        const found = this.newest;
+        this.newest = null;
         return found;
     }
 
@@ -57,8 +56,7 @@ export class SwitchPictures {
         const ticks = rows[0].map((tick) => tick - facts.first_tick);
         // What was extrapolated and interpolated is of interest within the gap and beside it.
         const near = (column: number) => rates(column).map((rate, row) => (ticks[row] >= -1 && ticks[row] <= facts.gap_ticks ? rate : NaN));
-        const picture = { ...facts, at_s: facts.first_tick * this.tick_s, gap_s: facts.gap_ticks * this.tick_s, columns: [ticks, rates(this.columns.true), rates(this.columns.read), near(this.columns.delivered), near(this.columns.final)] };
-        this.pictures = [...this.pictures.filter((other) => other.first_tick !== facts.first_tick), picture].slice(-kept);
+        this.newest = { ...facts, at_s: facts.first_tick * this.tick_s, gap_s: facts.gap_ticks * this.tick_s, columns: [ticks, rates(this.columns.true), rates(this.columns.read), near(this.columns.delivered), near(this.columns.final)] };
     }
 }
 

@@ -1,7 +1,7 @@
 // The views of the gyro: each frame is drawn into them.
 import { compared_lines, compensations } from "./compensations";
 import { element, finite, positive } from "./elements";
-import { MagnifiedSwitches } from "./magnified";
+import { MagnifiedSwitch } from "./magnified";
 import { Chart, short } from "./plots";
 import type { Frame, SwitchRow } from "./protocol";
 
@@ -19,7 +19,7 @@ export class Views {
     private readonly light = new Chart(element("plot-light"), { x: "time, s", y: "light, any unit", least_span: 100, height: 150, sync: "signals", lines: [{ label: "beam A", colour: "--ours", unit: "" }, { label: "beam B", colour: "--read", unit: "" }] });
     private readonly mode = new Chart(element("plot-mode"), { x: "time, s", y: "mode", height: 130, sync: "signals", y_range: [-1.3, 1.3], y_splits: [-1, 0, 1], lines: [{ label: "mode (0: loop open)", colour: "--true", unit: "", steps: true }] });
     private readonly error = new Chart(element("plot-error"), { x: "time, s", y: "error, arcsec", least_span: 20, height: 260, lines: [...compared_lines("arcsec"), { label: "second gyro", colour: "--other", unit: "arcsec", dash: [5, 4] }] });
-    private readonly magnified = new MagnifiedSwitches("switch", "Error left in the angle, as configured", true);
+    private readonly magnified = new MagnifiedSwitch("switch", "Error left in the angle, as configured", true);
     private readonly histogram = new Chart(element("plot-histogram"), { x: "error of a switch up to, arcsec", y: "switches", height: 220, x_names: size_names, lines: compared_lines("").map((line) => ({ ...line, bars: true })) });
     private readonly allan = new Chart(element("plot-allan"), { x: "averaging time, s", y: "deviation, deg/h", height: 220, log_x: true, log_y: true, lines: compared_lines("deg/h") });
     private counts = compensations.map(() => sizes.map(() => 0));
@@ -42,7 +42,7 @@ export class Views {
     show(frame: Frame): void {
         this.show_signals(frame);
         this.error.show(frame.error.map((column) => Array.from(column, finite)));
-        this.magnified.add(frame.pictures);
+        if (frame.picture !== null) this.magnified.show(frame.picture);
         if (frame.switches.length > 0) this.count(frame.switches);
         this.allan.show(frame.allan.map((column) => Array.from(column, positive)));
     }

@@ -2,7 +2,6 @@
 import { design_of } from "./design_charts";
 import { read_log } from "./log_reading";
 import { LoopModule, Refusal, View } from "./loop_module";
-import { read_motion } from "./motion_file";
 import type { Frame, FromWorker, Gyro, Key, State, ToWorker } from "./protocol";
 import { Recorder } from "./recorder";
 import { Settings } from "./settings";
@@ -89,16 +88,7 @@ class Pace {
                 this.hand.wanted_arcsec_s = message.rate_arcsec_s;
                 break;
             case "design":
-                if (this.gyro !== null) scope.postMessage({ kind: "designed", design: design_of(this.module!, this.settings(), message.switch_error_arcsec, message.passes_zero) });
-                return;
-            case "read_motion":
-                try {
-                    const motion = await read_motion(message.file);
-                    this.module!.take_motion(message.file.name, motion.values);
-                    scope.postMessage({ kind: "motion_read", name: message.file.name, settings: motion.settings, note: motion.note });
-                } catch (error) {
-                    scope.postMessage({ kind: "motion_refused", message: (error as Error).message });
-                }
+                if (this.gyro !== null) scope.postMessage({ kind: "designed", design: design_of(this.module!, this.settings(), message.switch_error_arcsec) });
                 return;
             case "read_log":
                 read_log(this.module!, message, (answer) => scope.postMessage(answer));
@@ -149,9 +139,7 @@ class Pace {
         const changed = module.changed().filter((setting) => gyro.until_s === null || !setting.startsWith("run.duration_s="));
         this.tick_s = this.settings().number("gyro.tick_s");
         this.recorder = new Recorder(this.tick_s, this.switching_bit, gyro.fault_s);
-        // A recorded motion ends.
-        const ends = gyro.until_s !== null || this.settings().text("motion.kind") === "file";
-        this.end_halves = ends ? module.calls.zlg_run_halves() : Infinity;
+        this.end_halves = gyro.until_s !== null ? module.calls.zlg_run_halves() : Infinity;
         this.repeated_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s + 1e-6) * 2 : 0;
         this.catch_up_halves = gyro.until_s === null ? this.repeated_halves : module.calls.zlg_run_halves();
         this.state = running || gyro.until_s !== null ? "running" : "paused";
@@ -289,7 +277,7 @@ class Pace {
             now: module.now(),
             signals: recorder.signals(this.window_s),
             error: recorder.error(),
-            pictures: recorder.pictures.take(),
+            picture: recorder.pictures.take(),
             switches: recorder.new_switches(),
             allan: recorder.allan(),
             module_bytes: module.calls.memory.buffer.byteLength,

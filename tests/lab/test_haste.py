@@ -220,41 +220,6 @@ class Haste(LivingPageCase):
         self.browser.wait_for_state("paused")
         self.assertLess(self.time_s(), before_s + 60)  # near real time, not as fast as it goes
 
-    def test_a_link_to_a_recorded_motion_says_what_it_lacks_and_opens(self):
-        self.browser.value("document.querySelector('#motions button').click()")
-        self.browser.wait_until(lambda: "motion.kind" in self.browser.value("(document.getElementById('share').click(), document.getElementById('share-command').textContent)"))
-        self.assertIn("not in the link", self.browser.text("#share-note"))
-        self.browser.value("document.getElementById('share-dialog').close()")
-        link = self.link()
-        self.assertNotIn("motion", link)
-        self.browser.open_lab(link.split("#")[1])
-        self.browser.wait_for_state("running")
-
-    def test_a_recorded_motion_that_has_ended_begins_again(self):
-        self.browser.fill("#speed", "4")
-        self.browser.value("document.querySelector('#motions button').click()")
-        self.browser.wait_for_state("done")
-        end_s = self.time_s()
-        self.assertEqual(self.browser.text("#run"), "Again")
-        self.browser.fill("#speed", "0")
-        self.browser.press("#run")
-        self.browser.wait_until(lambda: 0 < self.time_s() < end_s)
-
-    def test_steps_beyond_the_end_of_a_recorded_motion_stop_there(self):
-        self.browser.value("document.querySelector('#motions button').click()")
-        self.browser.wait_until(lambda: "motion.kind" in self.browser.value("(document.getElementById('share').click(), document.getElementById('share-command').textContent)"))
-        self.browser.value("document.getElementById('share-dialog').close()")
-        self.browser.press("#run")
-        self.browser.wait_for_state("paused")
-        self.browser.value("for (let k = 0; k < 20000; ++k) document.getElementById('step-tick').click();")  # 100 s
-        self.browser.wait_for_state("done")
-        end_s = self.time_s()
-        self.browser.fill("#speed", "4")
-        self.browser.press("#run")
-        self.browser.wait_until(lambda: self.time_s() != end_s)
-        self.browser.wait_for_state("done")
-        self.assertEqual(self.time_s(), end_s)
-
     def test_a_motion_that_was_turned_by_hand_is_not_in_the_link(self):
         self.browser.value("(() => { const pad = document.getElementById('pad'); pad.value = 5; pad.dispatchEvent(new Event('input')); })()")
         self.browser.wait_until(lambda: self.browser.marked("fingerprint") == "turned by hand")

@@ -1,4 +1,4 @@
-"""What the lab page shows and does: controls, faults, turning by hand, links, exports, tour, narrow and dark screens."""
+"""What the lab page shows and does: controls, faults, turning by hand, links, tour, narrow and dark screens."""
 
 import json
 import re
@@ -88,24 +88,6 @@ class Views(LivingPageCase):
         self.browser.wait_until(lambda: not self.browser.marked("message"))
         self.assertIn("switching.interval_s=2", self.link()[0])
 
-    def test_a_second_gyro_of_own_settings_runs_on_the_same_motion(self):
-        self.browser.fill("#other", "own")
-        self.browser.fill("#other-settings", "no.such=1")
-        self.browser.wait_until(lambda: self.browser.marked("message").startswith("the second gyro: --set: unknown"))
-        self.browser.fill("#other-settings", "run.seed=1")
-        self.browser.wait_until(lambda: not self.browser.marked("message"))
-        time_s = self.time_s()
-        self.browser.wait_until(lambda: self.time_s() > time_s + 0.5)
-        self.pause()
-        with tempfile.TemporaryDirectory() as folder:
-            self.browser.send("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
-            self.browser.value("document.getElementById('export-error-csv').click()")
-            self.browser.wait_until((Path(folder) / "error.csv").exists)
-            rows = [row.split(",") for row in (Path(folder) / "error.csv").read_text().splitlines()[1:]]
-        # The same settings and seed: the same error, tick by tick.
-        self.assertGreater(len(rows), 50)
-        self.assertEqual([row[3] for row in rows], [row[4] for row in rows])
-
     def test_search_finds_any_setting_with_unit_range_and_meaning(self):
         self.browser.fill("#search", "mirror")
         shown = self.browser.value("[...document.querySelectorAll('.control')].map(e => e.dataset.key)")
@@ -145,22 +127,6 @@ class Views(LivingPageCase):
         self.browser.wait_until(lambda: self.browser.text("#now dd").startswith("0 "))
         self.browser.press("#restart")
         self.browser.wait_until(lambda: len(self.browser.marked("fingerprint")) == 16)
-
-    def test_exports_are_the_gyro_that_is_shown(self):
-        with tempfile.TemporaryDirectory() as folder:
-            self.browser.send("Page.setDownloadBehavior", behavior="allow", downloadPath=folder)
-            # Before the first ticks there is no error to draw.
-            self.browser.wait_until(lambda: self.time_s() > 1.0)
-            self.pause()
-            for name, button in (("gyro.toml", "toml"), ("signals.csv", "csv"), ("error.csv", "error-csv"), ("error.svg", "svg")):
-                self.browser.value(f"document.getElementById('export-{button}').click()")
-                self.browser.wait_until((Path(folder) / name).exists)
-            self.assertEqual((Path(folder) / "gyro.toml").read_text(), "[switching]\ninterval_s = 1\n")
-            head, *rows = (Path(folder) / "signals.csv").read_text().splitlines()
-            self.assertTrue(head.startswith("t_s,true_arcsec_s,measured_arcsec_s,"))
-            self.assertGreater(len(rows), 10)
-            self.assertEqual({len(row.split(",")) for row in rows}, {12})
-            self.assertIn("<polyline", (Path(folder) / "error.svg").read_text())
 
     def test_the_tour_has_ten_steps_each_with_a_gyro_of_its_own(self):
         self.browser.press("#tour-start")

@@ -8,9 +8,7 @@ import os
 import pkgutil
 import re
 import subprocess
-import shutil
 import sys
-import tarfile
 import zipfile
 
 import pytest
@@ -99,25 +97,3 @@ def test_no_wheel_is_made_without_its_module(backend, tmp_path, monkeypatch):
     with pytest.raises(SystemExit, match="holds no _zlg.*another Python"):
         backend.build_wheel(tmp_path)
     assert not list(tmp_path.glob("*.whl"))
-
-
-def test_the_sources_are_packed(backend, tmp_path):
-    with tarfile.open(tmp_path / backend.build_sdist(tmp_path)) as archive:
-        names = {name.partition("/")[2] for name in archive.getnames()}
-    assert names >= {"PKG-INFO", "pyproject.toml", "CMakeLists.txt", "LICENSE", "python/zlg_build.py", "python/zlg/py.typed"}
-    for folder in ("src", "firmware", "python"):
-        known = {str(path.relative_to(ROOT)) for path in (ROOT / folder).rglob("*.hpp")}
-        assert known and len(known & names) >= len(known) - 3  # a header may be too new for git to know it
-    assert not any(name.startswith(("build/", ".git/")) or "__pycache__" in name for name in names)
-
-
-@pytest.mark.skipif(shutil.which("git") is None, reason="needs git")
-def test_only_sources_that_git_knows_are_packed(backend, tmp_path, monkeypatch):
-    monkeypatch.setattr(backend, "ROOT", tmp_path)
-    for name in ("known.txt", "lost.txt", "notes.txt"):
-        (tmp_path / name).touch()
-    assert [path.name for path in backend.source_files()] == ["known.txt", "lost.txt", "notes.txt"]
-    for command in (["init", "-q"], ["add", "known.txt", "lost.txt"]):
-        subprocess.run(["git", "-C", str(tmp_path), *command], check=True)
-    (tmp_path / "lost.txt").unlink()
-    assert [path.name for path in backend.source_files()] == ["known.txt"]

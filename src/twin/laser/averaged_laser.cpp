@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <zlg/twin/laser_zones.hpp>
-
 #include "refusal.hpp"
 
 namespace zlg::twin {
@@ -91,15 +89,6 @@ double scale_pull(const FourWave& laser, double field_g) {
     return change_hz / (2.0 * step_g * 2.0 * laser.config().zeeman_hz_per_g);
 }
 
-void find_limits(const FourWave& laser, double field_g, AveragedLaser& result) {
-    for (const LaserZone& zone : laser_zones(laser, field_g, -0.25, 0.25)) {
-        const double nearest =
-            zone.from_lambda > 0.0 ? zone.from_lambda : (zone.to_lambda < 0.0 ? -zone.to_lambda : 0.0);
-        if (zone.lit & 12U) result.third_wave_lambda = std::min(result.third_wave_lambda, nearest);
-        if ((zone.lit & 3U) != 3U) result.two_way_lambda = std::min(result.two_way_lambda, nearest);
-    }
-}
-
 }  // namespace
 
 AveragedLaser averaged_laser(const FourWave& laser, double field_g, double fit_range_lambda) {
@@ -116,7 +105,6 @@ AveragedLaser averaged_laser(const FourWave& laser, double field_g, double fit_r
     result.settled_lambda = settled(laser, field_g);
     result.discriminator_per_lambda = slope(laser, field_g, result.settled_lambda);
     result.scale_pull = scale_pull(laser, field_g);
-    find_limits(laser, field_g, result);
     return result;
 }
 

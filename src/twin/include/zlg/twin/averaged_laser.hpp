@@ -13,8 +13,6 @@ struct AveragedLaser {
     double discriminator_per_lambda = 0.0;  // slope of (cw - ccw)/(cw + ccw) where the perimeter loop settles
     double settled_lambda = 0.0;            // detuning of equal beams there; 0 for isotopes of equal share
     double scale_pull = 0.0;                // part of the beat of a rotation that the gas pulls away, undetuned
-    double third_wave_lambda = 0.25;        // |detuning| at which a wave of the next mode is lit, at most a quarter
-    double two_way_lambda = 0.25;           // |detuning| up to which the near mode is lit both ways, likewise
 };
 
 // field_g           plateau of the bias, > 0.
