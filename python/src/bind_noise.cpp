@@ -161,15 +161,6 @@ py::tuple spectrum(const In<double>& rates, double rate_hz, std::size_t piece, d
     return py::make_tuple(as_array(std::move(s.frequency_hz)), as_array(std::move(s.density)));
 }
 
-py::tuple spectrogram_of(const In<double>& rates, double rate_hz, std::size_t piece, double least_known_ratio) {
-    const auto values = span_of(rates, "rates_arcsec_s");
-    Spectrogram s = without_interpreter([&] { return spectrogram(values, rate_hz, piece, least_known_ratio); });
-    const auto times = static_cast<py::ssize_t>(s.time_s.size());
-    const auto frequencies = static_cast<py::ssize_t>(s.frequency_hz.size());
-    return py::make_tuple(as_array(std::move(s.time_s)), as_array(std::move(s.frequency_hz)),
-                          as_array(std::move(s.density), {times, frequencies}));
-}
-
 py::dict modes(const In<double>& rates, const In<std::int8_t>& mode, double rate_hz,
                const std::optional<In<double>>& bridged, std::int64_t settling) {
     const ModeRecord record{rate_hz, span_of(rates, "rates_arcsec_s"), span_of(bridged, "bridged_arcsec_s"),
@@ -192,7 +183,6 @@ void bind_noise(py::module_& m) {
     bind_units(m);
     m.def("fit_noise", &fit, "samples"_a, "markov"_a, "most_sines"_a, "least_known_ratio"_a, "threads"_a);
     m.def("welch_spectrum", &spectrum, "rates_arcsec_s"_a, "rate_hz"_a, "piece"_a, "least_known_ratio"_a);
-    m.def("spectrogram", &spectrogram_of, "rates_arcsec_s"_a, "rate_hz"_a, "piece"_a, "least_known_ratio"_a);
     m.def("split_modes", &modes, "rates_arcsec_s"_a, "mode"_a, "rate_hz"_a, "bridged_arcsec_s"_a, "settling_samples"_a);
     m.def("rate_table", &table, "input_arcsec_s"_a, "output"_a, "settling_samples"_a, "earth_arcsec_s"_a);
 }

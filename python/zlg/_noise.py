@@ -17,7 +17,7 @@ from ._zlg import NoiseTerms
 
 __all__ = [
     "DiscreteNoise", "FittedTerm", "ModeSplit", "NoiseFit", "NoiseTerms", "RateTable", "data_sheet",
-    "discrete_noise", "fit_noise", "imu_yaml", "rate_table", "read_imu_yaml", "spectrogram", "split_modes",
+    "discrete_noise", "fit_noise", "imu_yaml", "rate_table", "read_imu_yaml", "split_modes",
     "terms_of_data_sheet", "welch_spectrum",
 ]  # fmt: skip
 
@@ -149,16 +149,6 @@ def welch_spectrum(
     piece  samples of each piece; they overlap by half. Raises SeriesError.
     """
     return _zlg.welch_spectrum(floats(rates_arcsec_s), rate_hz, piece, least_known_ratio)
-
-
-def spectrogram(
-    rates_arcsec_s: ArrayLike, rate_hz: float, piece: int, least_known_ratio: float = 0.5
-) -> tuple[Floats, Floats, Floats]:
-    """Times, s, frequencies, Hz, and one-sided density, (arcsec/s)^2/Hz, shape (times, frequencies); NaN: too little known.
-
-    Raises SeriesError.
-    """
-    return _zlg.spectrogram(floats(rates_arcsec_s), rate_hz, piece, least_known_ratio)
 
 
 @dataclass(repr=False)

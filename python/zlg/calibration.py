@@ -23,7 +23,7 @@ __all__ = ["CalibratedLog", "Calibration", "Constant", "Discriminator", "Goodnes
 class Constant(Shown):
     """A constant that the logs determine."""
 
-    #: "section.key" of the configuration; "detuning_scale": logged wavelengths per true one
+    #: "section.key" of the configuration
     key: str
     value: float
     #: one standard deviation

@@ -9,7 +9,6 @@
 
 #include <zlg/calibration/bias_law.hpp>
 #include <zlg/calibration/bias_loss.hpp>
-#include <zlg/calibration/detuning_scale.hpp>
 #include <zlg/calibration/drift_law.hpp>
 #include <zlg/calibration/half_wave_law.hpp>
 #include <zlg/calibration/lock_in_law.hpp>
@@ -50,18 +49,13 @@ void add(const BiasLaw& law, const BiasLoss& loss, Calibration& c) {
              fmt::format("residuals of {} re-locks over white rounding and light noise; about 1", loss.n_relocks)});
 }
 
-void add(const HalfWaveLaw& law, const DetuningScale& scale, Calibration& c) {
+void add(const HalfWaveLaw& law, Calibration& c) {
     c.constants.push_back({"piezo.half_wave_v", "V", law.half_wave_v});
     c.constants.push_back({"piezo.half_wave_temperature_coefficient_per_c", "1/C", law.temperature_coefficient_per_c});
-    c.constants.push_back({"detuning_scale", "", scale.scale});
     if (law.half_wave_v.determined)
         c.goodness.push_back(
             {"half_wave_scatter_v", law.scatter_v,
              fmt::format("rms of {} switches about the law of the half-wave voltage", law.n_switches)});
-    if (scale.scale.determined)
-        c.goodness.push_back(
-            {"detuning_scatter_lambda", scale.scatter_lambda,
-             fmt::format("rms of the mean detuning of a half about the piezo's travel, {} re-locks", scale.n_relocks)});
 }
 
 void add(const DriftLaw& law, Calibration& c) {
@@ -127,9 +121,7 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
     if (c.curve.determined)
         c.goodness.push_back({"curve_chi2_per_dof", c.curve.chi2_per_dof,
                               fmt::format("residuals of {} re-locks over white rounding; about 1", c.curve.n_relocks)});
-    const HalfWaveLaw half_wave =
-        find_half_wave_law(logs, reference_c, presumed.half_wave_temperature_coefficient_per_c);
-    add(half_wave, find_detuning_scale(seen, half_wave, presumed.stepped_voltage), c);
+    add(find_half_wave_law(logs, reference_c, presumed.half_wave_temperature_coefficient_per_c), c);
     DriftLaw drift = find_drift(logs, rates_arcsec_s, presumed.scale_arcsec, bias, presumed.field.of_logs);
     if (presumed.field.of_logs.empty())
         drift.sensitivity_arcsec_s_g = drift.sensitivity_per_c = numeric::refused(presumed.field.why_none);

@@ -48,9 +48,6 @@ Relocks::Relocks(std::span<const LabLog> logs) {
     const double least = 0.01 * *std::max_element(mean.begin(), mean.end());
     while (transient_halves < relock_halves / 2 && mean[transient_halves] > least) ++transient_halves;
     transient_halves = std::max<std::size_t>(transient_halves, 4);
-    // Below this the noise of a mean square would look like a fall.
-    for (std::size_t h = 0; h < transient_halves; ++h)
-        if (mean[h] > 4.0 * least) steepest_fall = std::min(steepest_fall, std::max(0.0, mean[h + 1] / mean[h]));
 }
 
 bool Relocks::has_detunings() const {

@@ -41,7 +41,6 @@ struct Relocks {
     std::vector<RelockView> views;
     std::size_t transient_halves = 0;   // until the mean excess of the mean square is below 1 % of its highest
     double first_square_lambda2 = 0.0;  // mean excess in the first half
-    double steepest_fall = 1.0;         // least ratio of the mean excess of a half to that before
 
     // Re-locks with mean squares in every half, and a settled rest that is four times as long as the transient kept.
     explicit Relocks(std::span<const LabLog> logs);

@@ -133,9 +133,9 @@ private:
     // to its end is not repeated.
     bool prove_the_best() {
         const std::vector<Candidate> all = search_.best(n_best);
-        const auto told = [&](const Candidate& c) { return forecast_.parts(c).sum(); };
+        const auto predicted = [&](const Candidate& c) { return forecast_.parts(c).sum(); };
         if (static_cast<std::int64_t>(answer_.proof.trials.size()) == r_.gyros &&
-            told(answer_.proof.candidate) <= told(*std::ranges::max_element(all, {}, told)))
+            predicted(answer_.proof.candidate) <= predicted(*std::ranges::max_element(all, {}, predicted)))
             return false;
         const Tester tester{task_, common_};
         std::optional<Candidate> best;

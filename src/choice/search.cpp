@@ -105,11 +105,11 @@ std::optional<Evaluation> Search::next(const std::function<void()>& on_gyro) {
 void Search::fall_short(const Evaluation& e) {
     const Requirement& r = task_.requirement;
     const auto n = static_cast<double>(e.trials.size());
-    const double told = forecast_.chance(e.candidate), off = std::abs(e.share(r.limit_arcsec()) - told);
-    if (off > believed_sigmas * std::sqrt(told * (1.0 - told) / n)) return;
+    const double predicted = forecast_.chance(e.candidate), off = std::abs(e.share(r.limit_arcsec()) - predicted);
+    if (off > believed_sigmas * std::sqrt(predicted * (1.0 - predicted) / n)) return;
     // At most half of what is left to certainty, which few gyros could never tell.
-    const double told_apart = std::sqrt(r.confidence * (1.0 - r.confidence) / static_cast<double>(r.gyros));
-    least_chance_ = std::max(least_chance_, told + std::min(told_apart, 0.5 * (1.0 - told)));
+    const double sigma_of_proof = std::sqrt(r.confidence * (1.0 - r.confidence) / static_cast<double>(r.gyros));
+    least_chance_ = std::max(least_chance_, predicted + std::min(sigma_of_proof, 0.5 * (1.0 - predicted)));
 }
 
 std::optional<Evaluation> Search::runner_up(const Method& chosen) {

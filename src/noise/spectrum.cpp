@@ -4,7 +4,6 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -62,9 +61,6 @@ public:
     [[nodiscard]] std::size_t length() const { return length_; }
     [[nodiscard]] std::size_t count() const { return (rates_.size() - length_) / step() + 1; }
     [[nodiscard]] std::size_t step() const { return std::max<std::size_t>(1, length_ / 2); }
-    [[nodiscard]] double middle_s(std::size_t p) const {
-        return (static_cast<double>(p * step()) + 0.5 * static_cast<double>(length_)) / rate_hz_;
-    }
     [[nodiscard]] std::vector<double> frequencies() const {
         std::vector<double> f;
         for (std::size_t k = 1; k <= padded_ / 2; ++k)
@@ -134,19 +130,6 @@ Spectrum welch_spectrum(std::span<const double> rates, double rate_hz, std::size
             fmt::format("spectrum: no piece of {} samples of which {} is known", piece, least_known_ratio));
     for (double& d : mean.density) d /= static_cast<double>(mean.pieces);
     return mean;
-}
-
-Spectrogram spectrogram(std::span<const double> rates, double rate_hz, std::size_t piece, double least_known_ratio) {
-    const Pieces pieces(rates, rate_hz, piece, least_known_ratio);
-    HalfTransform transform;
-    Spectrogram all{.time_s = {}, .frequency_hz = pieces.frequencies(), .density = {}};
-    for (std::size_t p = 0; p < pieces.count(); ++p) {
-        auto one = pieces.density(p, transform);
-        if (one.empty()) one.assign(all.frequency_hz.size(), std::numeric_limits<double>::quiet_NaN());
-        all.time_s.push_back(pieces.middle_s(p));
-        all.density.insert(all.density.end(), one.begin(), one.end());
-    }
-    return all;
 }
 
 }  // namespace zlg::noise

@@ -10,7 +10,6 @@ namespace {
 
 using namespace report;
 
-constexpr int max_points = 600;
 constexpr std::size_t max_shaded_gaps = 60;  // more would merge into one grey
 
 // Means over even steps of the logarithm, so that the many bins of high frequencies are no black band.
@@ -70,24 +69,6 @@ Figure spectrum_figure(const View& v) {
             fitted, frequency,
             2.0 * v.shown(1.0) * v.shown(1.0) * noise::rate_spectrum(v.axis.fit->terms, frequency, v.axis.rate_hz));
     f.series.push_back(std::move(fitted));
-    return f;
-}
-
-// How the noise of a few bands goes on with time: a spectrogram whose numbers can be read.
-Figure bands_figure(const View& v) {
-    Figure f = report::blank_figure(
-        v.id("bands"), fmt::format("Noise in time of {}", v.axis.name),
-        "The spectrogram in bands: root of the density, averaged over each band, piece by piece. A "
-        "break is a piece of which too little was measured.",
-        "time, s", fmt::format("{}/sqrt(Hz)", v.unit()));
-    f.log_y = true;
-    for (const NoiseBand& band : v.axis.bands) {
-        if (band.density.empty()) continue;
-        Series s = blank_series(fmt::format("{} to {} Hz", short_number(band.from_hz), short_number(band.to_hz)));
-        for (std::size_t t = 0; t < band.density.size(); ++t)
-            add_point(s, v.axis.band_time_s[t], v.shown(std::sqrt(band.density[t])));
-        f.series.push_back(report::thin(s, max_points));
-    }
     return f;
 }
 

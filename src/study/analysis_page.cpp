@@ -153,10 +153,7 @@ report::Section section_of(const View& v) {
     if (v.axis.temperature) s.tables.push_back(temperature_table(*v.axis.temperature));
     if (can_be_drawn(v.axis.curves.front())) s.figures.push_back(sigma_figure(v));
     s.figures.push_back(course_figure(v));
-    if (!v.axis.spectrum.density.empty()) {
-        s.figures.push_back(spectrum_figure(v));
-        s.figures.push_back(bands_figure(v));
-    }
+    if (!v.axis.spectrum.density.empty()) s.figures.push_back(spectrum_figure(v));
     return s;
 }
 

@@ -41,7 +41,6 @@ struct View {
 
 [[nodiscard]] report::Figure course_figure(const View& v);
 [[nodiscard]] report::Figure spectrum_figure(const View& v);
-[[nodiscard]] report::Figure bands_figure(const View& v);
 
 // The result in one sentence an axis, of the first three.
 [[nodiscard]] std::string analysis_verdict(const config::Analysis& config, const AnalysisResult& result);

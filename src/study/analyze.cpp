@@ -18,8 +18,6 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t course_bins = 1500;
-constexpr std::size_t spectrogram_times = 60;
-constexpr std::size_t n_bands = 4;
 
 void count_known(const AxisRecord& record, AxisResult& axis) {
     std::size_t gap_from = 0;
@@ -122,44 +120,13 @@ std::size_t piece_of(std::size_t n) {
     return piece;
 }
 
-// Bands of two octaves, down from half the rate; the last one takes all the rest.
-void take_bands(const noise::Spectrogram& g, double start_s, AxisResult& axis) {
-    const std::size_t n = g.frequency_hz.size();
-    axis.bands.resize(n_bands);
-    for (const double time_s : g.time_s) axis.band_time_s.push_back(start_s + time_s);
-    for (std::size_t b = 0; b < n_bands; ++b) {
-        const std::size_t to = n >> (2 * b), from = b + 1 == n_bands ? 0 : n >> (2 * b + 2);
-        if (to <= from) continue;
-        axis.bands[b].from_hz = g.frequency_hz[from];
-        axis.bands[b].to_hz = g.frequency_hz[to - 1];
-        for (std::size_t t = 0; t < g.time_s.size(); ++t) {
-            double sum = 0.0;
-            for (std::size_t k = from; k < to; ++k) sum += g.density[t * n + k];
-            axis.bands[b].density.push_back(sum / static_cast<double>(to - from));
-        }
-    }
-}
-
-// A few pieces of the spectrogram at a time: the whole of it is as large as the record.
-void take_spectrogram(std::span<const double> rates, double rate_hz, AxisResult& axis) {
-    const std::size_t piece = std::clamp<std::size_t>(2 * rates.size() / spectrogram_times, 8, 1 << 16);
-    const std::size_t step = piece / 2;
-    for (std::size_t at = 0; at + piece <= rates.size(); at += 8 * step) {
-        const auto some = rates.subspan(at, std::min(rates.size() - at, 7 * step + piece));
-        take_bands(noise::spectrogram(some, rate_hz, piece), static_cast<double>(at) / rate_hz, axis);
-    }
-}
-
 void take_spectra(const AxisRecord& record, AxisResult& axis) {
     const std::size_t n = record.rates_arcsec_s.size();
     try {
         axis.spectrum = noise::welch_spectrum(record.rates_arcsec_s, record.rate_hz, piece_of(n));
-        take_spectrogram(record.rates_arcsec_s, record.rate_hz, axis);
     } catch (const deviations::SeriesError&) {
         // Too short, or too little known: the page goes without.
         axis.spectrum = {};
-        axis.bands = {};
-        axis.band_time_s = {};
     }
 }
 

@@ -104,9 +104,6 @@ void check_agreement(const CalibrationTask& task, const Lab& lab) {
             throw config::ConfigError{
                 differ("gyro.reference_temperature_c", first.reference_temperature_c, gyro.reference_temperature_c) +
                 "; say in the configuration (--set) to which temperature the constants are to refer"};
-        if (lab.configs[k].perimeter.loop != lab.configs.front().perimeter.loop)
-            throw config::ConfigError{fmt::format("perimeter.loop differs between {} and {}; calibrate them apart",
-                                                  task.logs.front(), task.logs[k])};
     }
 }
 
@@ -143,7 +140,6 @@ calibration::Presumed presumed(const CalibrationTask& task, const Lab& lab) {
             .rate_arcsec_s = task.rate_arcsec_s,
             .bias_edge_s = of_logs.gyro.bias_edge_s,
             .counts_per_turn = static_cast<double>(counts_per_turn(of_logs.laser.quadrature)),
-            .stepped_voltage = of_logs.perimeter.loop == config::Loop::digital,
             .read_by_slope = read_by_one_slope(lab),
             .bias_temperature_coefficient_per_c = task.said.gyro.bias_temperature_coefficient_per_c,
             .half_wave_temperature_coefficient_per_c = task.said.piezo.half_wave_temperature_coefficient_per_c,
@@ -187,7 +183,7 @@ std::string far_reference(const CalibrationTask& task, const Lab& lab, const cal
 
 // Coefficients that were found were not presumed.
 std::string presumed_line(const Lab& lab, const calibration::Calibration& found) {
-    std::vector<std::string_view> keys{"gyro.reference_temperature_c", "perimeter.loop"};
+    std::vector<std::string_view> keys{"gyro.reference_temperature_c"};
     for (const calibration::Constant& c : found.constants)
         if (!c.estimate.determined && c.key.ends_with("temperature_coefficient_per_c")) keys.push_back(c.key);
     const std::string list = config::not_given(lab.configs.front(), keys);

@@ -11,8 +11,6 @@ namespace {
 
 using calibration::Constant;
 
-// No key of a configuration: it says how to renew two of them.
-constexpr std::string_view scale_name = "detuning_scale";
 // What the compensation is told with its sigma.
 constexpr std::string_view lock_in_key = "compensation.lock_in_hz";
 
@@ -48,24 +46,8 @@ bool is_determined(const CalibrationResult& result, std::string_view key) {
 std::string toml_section(const CalibrationResult& result, const std::string& section) {
     std::string text;
     for (const Constant& c : result.calibration.constants)
-        if (c.key != scale_name && section_of(c.key) == section) text += toml_line(c);
+        if (section_of(c.key) == section) text += toml_line(c);
     return text;
-}
-
-std::string scale_comment(const Constant& c, bool has_curve) {
-    if (!c.estimate.determined) return fmt::format("# {}: not determined: {}\n", c.key, c.estimate.reason);
-    if (has_curve)
-        return fmt::format(
-            "# {0} = {1:.6g} +- {2:.3g}: wavelengths of discriminator_detuning_lambda per true one. For true ones "
-            "divide that list\n# by {1:.6g} and multiply bias_chi by {3:.6g}, both at once.\n",
-            c.key, c.estimate.value, c.estimate.sigma, c.estimate.value * c.estimate.value);
-    return fmt::format(
-        "# {0} = {1:.6g} +- {2:.3g}: logged wavelengths per true one. bias_chi above is in logged units, as process "
-        "needs it\n"
-        "# for these logs. To log true wavelengths from now on, multiply discriminator_per_lambda by {1:.6g} and "
-        "bias_chi by "
-        "{3:.6g}, bias_chi_higher by its square and the powers after.\n",
-        c.key, c.estimate.value, c.estimate.sigma, c.estimate.value * c.estimate.value);
 }
 
 std::string list_line(std::string_view name, const std::vector<double>& values, std::string_view equals = " =") {
@@ -126,8 +108,6 @@ std::string calibration_toml(const CalibrationResult& result) {
                 ? fmt::format("# bias_temperature_table: not determined: {}\n", table.reason)
                 : fmt::format("bias_temperature_table = {:::.8g}\n", table.knots) + list_line("# +-", table.sigma, "");
     if (!result.reference_warning.empty()) text += fmt::format("# warning: {}\n", result.reference_warning);
-    for (const Constant& c : result.calibration.constants)
-        if (c.key == scale_name) text += scale_comment(c, result.calibration.curve.determined);
     text += "\n[perimeter]\n" + curve_section(result);
     for (const char* section : {"piezo", "field", "drift", "compensation"})
         text += fmt::format("\n[{}]\n{}", section, toml_section(result, section));

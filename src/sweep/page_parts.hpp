@@ -41,7 +41,7 @@ struct Limit {
 
 [[nodiscard]] Limit limit_of(const Metric& m);
 
-// Correlations, Sobol's indices where the design has them, and responses.
+// Correlations and responses.
 [[nodiscard]] report::Section dependence(const Description& description, const Columns& columns);
 
 }  // namespace zlg::sweep

@@ -9,7 +9,6 @@
 #include <zlg/report/number_text.hpp>
 #include <zlg/sweep/metrics.hpp>
 #include <zlg/sweep/statistics.hpp>
-#include <zlg/sweep/tolerances.hpp>
 
 #include "page_parts.hpp"
 
@@ -18,7 +17,6 @@ namespace {
 
 using namespace report;
 
-constexpr double wanted_yield = 0.95;
 constexpr std::size_t n_worst = 10;
 
 std::string percent(double part) { return fmt::format("{:.1f} %", 100.0 * part); }
@@ -85,61 +83,6 @@ Figure distribution_figure(const Metric& metric, const std::vector<double>& valu
     return f;
 }
 
-// Yield where one parameter, or all, stay within a part of the way from the nominal value to the ends of the range.
-Figure tolerance_figure(const Description& d, const Placement& placement) {
-    const std::vector<Range>& all = placement.ranges();
-    Figure f = blank_figure(
-        "tolerances", "Yield against tolerance",
-        "The yield of the gyros whose parameter lies within this part of the way from the value of the base "
-        "to the ends of its range; the others have their full ranges, but for \"all\".",
-        "part of the way", "yield");
-    for (std::size_t p = 0; p <= all.size(); ++p) {
-        const bool is_all = p == all.size();
-        Series s = blank_series(is_all ? "all" : d.parameters[all[p].parameter].keys.front());
-        for (int k = 1; k <= 20; ++k) {
-            std::vector<double> ways(all.size(), is_all ? 0.05 * k : 1.0);
-            if (!is_all) ways[p] = 0.05 * k;
-            const auto y = placement.yield_within(ways);
-            if (y && y->gyros >= 10) add_point(s, 0.05 * k, y->value);
-        }
-        if (!s.x.empty()) f.series.push_back(std::move(s));
-    }
-    return f;
-}
-
-std::string tolerance_sentence(const Tolerances& t) {
-    if (!t.yield) return "No gyro lies within the ranges.";
-    const std::string what = fmt::format("{} of {} gyros within these tolerances pass: {} (interval {})",
-                                         t.yield->passed, t.yield->gyros, percent(t.yield->value), interval(*t.yield));
-    if (!t.is_reached)
-        return what + fmt::format(
-                          "; a yield of {} is not reached with the gyros that are left: the sample decides nothing, "
-                          "draw from narrower ranges or run more",
-                          percent(wanted_yield));
-    return what +
-           ". Chosen from the same gyros the yield is a little too good: verify it by a sweep over these tolerances.";
-}
-
-Section tolerance_section(const Description& d, const Placement& placement) {
-    const Tolerances t = tolerances(placement, wanted_yield);
-    Section s{.heading = "Tolerances to be held"};
-    report::Table table{
-        .caption = fmt::format(
-            "For a yield of {} within all limits; the ranges were drawn in one after the other. The range of a normal "
-            "law goes from the least to the greatest value of these gyros.",
-            percent(wanted_yield)),
-        .header = {"parameter", "from", "to", "drawn from", "drawn to", "part of the range"}};
-    for (std::size_t k = 0; k < t.ways.size(); ++k) {
-        const Range& r = placement.ranges()[k];
-        table.rows.push_back(row(d.parameters[r.parameter].keys.front(), r.below(t.ways[k]), r.above(t.ways[k]), r.min,
-                                 r.max, percent(t.ways[k])));
-    }
-    s.paragraphs = {tolerance_sentence(t)};
-    s.tables = {std::move(table)};
-    s.figures = {tolerance_figure(d, placement)};
-    return s;
-}
-
 Section worst_section(const Gyros& gyros, const Rows& rows) {
     Section s{.heading = "Gyros to look at",
               .paragraphs = {"Those that failed, then those farthest from the middle of the first number. Each line "
@@ -193,13 +136,8 @@ report::Page sweep_page(const Gyros& gyros, const Rows& rows) {
         figures.push_back(distribution_figure(d.metrics[k], columns.metrics[k], k));
         figures.push_back(yield_figure(d.metrics[k], columns.metrics[k], summary.gyros, k));
     }
-    std::vector<Section> causes;
-    if (summary.yield) {
-        const Placement placement{gyros, rows};
-        if (!placement.ranges().empty()) causes.push_back(tolerance_section(d, placement));
-    }
-    if (!columns.parameters.empty() && summary.failed < summary.gyros) causes.push_back(dependence(d, columns));
-    page.sections.insert(page.sections.begin() + 1, causes.begin(), causes.end());
+    if (!columns.parameters.empty() && summary.failed < summary.gyros)
+        page.sections.insert(page.sections.begin() + 1, dependence(d, columns));
     page.sections.push_back({.heading = "How this page was made",
                              .paragraphs = {"Saved as sweep.toml, the lines below make it again: zlg sweep sweep.toml "
                                             "--out results.h5 --page page.html."},

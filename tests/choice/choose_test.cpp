@@ -144,7 +144,7 @@ TEST(Choose, a_window_of_a_factor_of_two_is_found) {
     EXPECT_LT(need->to, 35.5) << need->sentence;
 }
 
-TEST(Search, what_is_no_better_than_one_that_fell_short_as_told_is_left_out) {
+TEST(Search, what_is_no_better_than_one_that_fell_short_as_predicted_is_left_out) {
     // On the border with one count a fringe; four counts or phase take 1 % off the error, 60 gyros tell 10 %.
     const Requirement r = of_walk_alone(1.645 * std::sqrt(1.4 * 1.4 * 40.0 + 3.263 * 3.263 / 6.0) + 0.01, 60);
     const Task task{.requirement = r, .threads = 1};
@@ -158,7 +158,7 @@ TEST(Search, what_is_no_better_than_one_that_fell_short_as_told_is_left_out) {
         search.fall_short(short_of_it);
         return search.next({}).has_value();
     };
-    EXPECT_FALSE(left_after(89)) << "where 90 are told";
+    EXPECT_FALSE(left_after(89)) << "where 90 are predicted";
     EXPECT_TRUE(left_after(60)) << "the closed forms are wrong, and say nothing of the others";
 }
 
@@ -172,10 +172,10 @@ TEST(Search, few_gyros_that_fall_short_leave_out_nothing_that_is_nearly_certain)
     Forecast forecast{gyros, 1, {}};
     Search search{task, forecast, gyros};
     Evaluation short_of_it{{.method = methods(r).all.front(), .interval_s = 40.0}, {}};
-    const double told = forecast.chance(short_of_it.candidate);
-    ASSERT_GT(told + std::sqrt(0.95 * 0.05 / 20.0), 1.0);
+    const double predicted = forecast.chance(short_of_it.candidate);
+    ASSERT_GT(predicted + std::sqrt(0.95 * 0.05 / 20.0), 1.0);
     for (int k = 0; k < 100; ++k)
-        short_of_it.trials.push_back({.state = TrialState::good, .error_arcsec = k < 100.0 * told ? 0.0 : 1e9});
+        short_of_it.trials.push_back({.state = TrialState::good, .error_arcsec = k < 100.0 * predicted ? 0.0 : 1e9});
     search.fall_short(short_of_it);
     EXPECT_TRUE(search.next({}).has_value());
 }

@@ -119,7 +119,7 @@ class Analyze(CliTest):
         words.feed(page.read_text())
         for text in words.text + words.drawn:
             self.assertNotRegex(text.lower(), r"\bnan\b|\binf\b")
-        for name in ("sigma-1", "course-1", "spectrum-1", "bands-1"):
+        for name in ("sigma-1", "course-1", "spectrum-1"):
             self.assertIn(f'id="{name}"', page.read_text())
         again = run("analyze", self.folder / "rates.txt", *TEXT, "--out", page)
         self.assertEqual(again.returncode, 3, again.stderr)

@@ -40,22 +40,6 @@ TEST(Spectrum, gaps_change_neither_its_level_nor_a_line) {
     EXPECT_NEAR(s.density[peak], 50.0 * 0.8 * 1024.0 / 50.0 / 1.5, 0.1 * s.density[peak]);
 }
 
-TEST(Spectrum, of_pieces_in_time) {
-    SimulatedNoise gyro(4096, 10.0, 3);
-    gyro.add_white(1.0);
-    for (std::size_t k = 2048; k < 4096; ++k) gyro.rates[k] *= 10.0;
-    for (std::size_t k = 1024; k < 1536; ++k) gyro.rates[k] = not_known;
-    const Spectrogram g = spectrogram(gyro.rates, 10.0, 256);
-    ASSERT_EQ(g.time_s.size(), 31u);
-    EXPECT_DOUBLE_EQ(g.time_s.front(), 12.8);
-    EXPECT_DOUBLE_EQ(g.time_s.back(), 409.6 - 12.8);
-    const std::size_t n = g.frequency_hz.size();
-    double early = 0.0, late = 0.0;
-    for (std::size_t k = 0; k < n; ++k) early += g.density[k], late += g.density[30 * n + k];
-    EXPECT_NEAR(late / early, 100.0, 40.0);
-    EXPECT_TRUE(std::isnan(g.density[9 * n]));
-}
-
 TEST(Spectrum, refuses_what_has_none) {
     const std::vector<double> few(7, 1.0), unknown(100, not_known);
     EXPECT_THROW((void)welch_spectrum(few, 1.0, 8), deviations::SeriesError);

@@ -82,7 +82,6 @@ std::map<std::string, double> truth(const Specimen& s) {
             {"gyro.bias_chi", c.gyro.bias_chi / (s.detuning_scale * s.detuning_scale)},
             {"piezo.half_wave_v", c.piezo.half_wave_v},
             {"piezo.half_wave_temperature_coefficient_per_c", c.piezo.half_wave_temperature_coefficient_per_c},
-            {"detuning_scale", s.detuning_scale},
             {"drift.magnetic_arcsec_s", c.drift.magnetic_arcsec_s},
             {"drift.magnetic_thermal_arcsec_s", c.drift.magnetic_thermal_arcsec_s},
             {"drift.thermal_time_s", c.drift.thermal_time_s},
@@ -92,7 +91,7 @@ std::map<std::string, double> truth(const Specimen& s) {
 
 // The greatest standard error, relative to the constant, that still is a calibration.
 const std::map<std::string, double> usual_sigma{
-    {"gyro.bias_hz", 5e-4}, {"gyro.bias_chi", 0.02}, {"piezo.half_wave_v", 1e-3}, {"detuning_scale", 0.02}};
+    {"gyro.bias_hz", 5e-4}, {"gyro.bias_chi", 0.02}, {"piezo.half_wave_v", 1e-3}};
 
 struct Errors {
     std::vector<double> in_sigmas;
@@ -105,9 +104,7 @@ std::map<std::string, Errors> errors_of_all() {
         const Specimen s = specimen(k);
         const std::vector<calibration::LabLog> logs{record(s)};
         const auto true_value = truth(s);
-        const auto found = calibration::calibrate(
-            logs,
-            {.rate_arcsec_s = {s.rate_arcsec_s}, .stepped_voltage = s.config.perimeter.loop == config::Loop::digital});
+        const auto found = calibration::calibrate(logs, {.rate_arcsec_s = {s.rate_arcsec_s}});
         for (const calibration::Constant& c : found.constants) {
             // One rate does not tell the one, an unknown field not the others.
             if (c.key == "compensation.lock_in_hz" || c.key.starts_with("field.")) continue;

@@ -25,7 +25,6 @@ struct Presumed {
     std::vector<double> rate_arcsec_s = {};           // at which the gyro was turned: of all logs, or of each; empty: 0
     double bias_edge_s = 50e-6;                       // duration of a reversal of the bias
     double counts_per_turn = 1.0;                     // of the beat
-    bool stepped_voltage = false;                     // the perimeter loop is digital
     bool read_by_slope = true;                        // all detunings were read by one and the same slope
     double bias_temperature_coefficient_per_c = 0.0;  // used where the logs hold a single temperature
     double half_wave_temperature_coefficient_per_c = 0.0;
@@ -33,7 +32,7 @@ struct Presumed {
 };
 
 struct Constant {
-    std::string key;   // of the configuration; `detuning_scale` has none
+    std::string key;   // of the configuration
     std::string unit;  // empty for a pure number
     numeric::Estimate estimate;
 };
@@ -50,7 +49,7 @@ struct Calibration {
     std::vector<double> chi_higher = {};  // gyro.bias_chi_higher, with its bias_chi
     BiasTable bias_table = {};            // gyro.bias_temperature_table, beside its line
     std::vector<Goodness> goodness;
-    LossCurve curve;  // where it is determined, bias_chi and detuning_scale are found from logs that it has corrected
+    LossCurve curve;  // where it is determined, bias_chi is found from logs that it has corrected
 };
 
 // logs    one or more of one gyro, of equal tick; otherwise std::invalid_argument.

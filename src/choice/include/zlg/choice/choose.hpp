@@ -5,10 +5,10 @@
 // gyros, 8, 16, 64 and 128 of them, and dropped as soon as they lie two standard deviations below the confidence
 // (successive halving: K. Jamieson, A. Talwalkar, AISTATS 2016, with a fixed threshold). Where one falls short just as
 // the closed forms say, those that they hold to be better by less than a proof can tell are left out. Each whose share
-// is the confidence or more is proved, on gyros of its own that no other step has seen,
-// until one has a share that is the confidence or more: that one meets it. The share has the standard deviation of a
-// binomial share with a flat prior, as if it were the only one proved. If none meets it, the simplest
-// candidate whose error a proof cannot tell from the least is the answer to what can be met.
+// is the confidence or more is proved, on gyros of its own that no other step has seen, until one has a share that is
+// the confidence or more: that one meets it. The share has the standard deviation of a binomial share with a flat
+// prior, as if it were the only one proved. If none meets it, the simplest candidate whose error a proof cannot tell
+// from the least is the answer to what can be met.
 
 #include <cstdint>
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-// The spectrum of a rate with gaps, averaged over the record or piece by piece.
+// The spectrum of a rate with gaps, averaged over the record.
 //
 // Each piece is freed of the mean of what is known in it and weighted by a Hann window; a missing sample weighs nothing
 // and the sum of the squared weights that are left is the scale. Gaps are neither filled nor cut out, so that
@@ -24,15 +24,5 @@ struct Spectrum {
 // errors   SeriesError: rate not positive, piece below 8, no piece known well enough.
 [[nodiscard]] Spectrum welch_spectrum(std::span<const double> rates_arcsec_s, double rate_hz, std::size_t piece,
                                       double least_known_ratio = 0.5, int threads = 1);
-
-struct Spectrogram {
-    std::vector<double> time_s;  // middle of each piece
-    std::vector<double> frequency_hz;
-    std::vector<double> density;  // [time][frequency], one-sided, (arcsec/s)^2/Hz; NaN where too little is known
-};
-
-// Pieces as for the spectrum, each for itself.
-[[nodiscard]] Spectrogram spectrogram(std::span<const double> rates_arcsec_s, double rate_hz, std::size_t piece,
-                                      double least_known_ratio = 0.5);
 
 }  // namespace zlg::noise

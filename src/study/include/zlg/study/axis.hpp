@@ -38,13 +38,6 @@ struct TimeBin {
     double mean_arcsec_s = 0.0;  // NaN: a gap
 };
 
-// How the noise of a band of frequencies goes on with time.
-struct NoiseBand {
-    double from_hz = 0.0;
-    double to_hz = 0.0;
-    std::vector<double> density;  // mean over the band, one-sided, (arcsec/s)^2/Hz; NaN where too little is known
-};
-
 struct Gap {
     double from_s = 0.0;
     double to_s = 0.0;
@@ -83,9 +76,7 @@ struct AxisResult {
     std::vector<TimeBin> time_bins;  // empty without a page, as the spectra are
     std::vector<Gap> gaps;           // the first `max_gaps`
     noise::Spectrum spectrum;
-    noise::Spectrum spectrum_left;    // without sinusoids, and the magnetic part, where there are any
-    std::vector<double> band_time_s;  // of the densities of each band
-    std::vector<NoiseBand> bands;
+    noise::Spectrum spectrum_left;      // without sinusoids, and the magnetic part, where there are any
     bool is_error = false;              // as of its record
     std::vector<std::string> warnings;  // as of its record
 };
