@@ -40,10 +40,13 @@ double most_loss(const LossBend& bend, double sq_lambda2) noexcept {
     return loss_at({{size(b0), size(b1), size(b2)}}, sq_lambda2).value;
 }
 
+double spread_lambda2(const CompensationConstants& gyro, const TrueMoments& seen) noexcept {
+    return seen.mean_sq_lambda2 - square(seen.mean_lambda) - square(seen.slope * gyro.light_noise.value());
+}
+
 double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen) noexcept {
     if (gyro.bend == LossBend{}) return 0.0;
-    const double noise_sq = square(seen.slope * gyro.light_noise.value());
-    const double spread_sq = seen.mean_sq_lambda2 - square(seen.mean_lambda) - noise_sq;
+    const double spread_sq = spread_lambda2(gyro, seen);
     const double spread = spread_sq > 0.0 ? square_root(spread_sq) : 0.0;
     const double middle = seen.mean_lambda - gyro.centre.value();
     const double above = square(middle + spread), below = square(middle - spread);

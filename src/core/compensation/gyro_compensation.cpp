@@ -99,11 +99,12 @@ void take_light(const GyroCompensationConfig& config, GyroCompensationState& sta
 constexpr double bias_memory_ticks = 256.0;
 
 // The false angle of a half by its record.
-void read_record(const CompensationConstants& gyro, const HalfRecord& half, HalfReading& reading) noexcept {
-    const RecordedSquare recorded = recorded_square(gyro, half);
+void read_record(const GyroCompensationConfig& config, const HalfRecord& half, HalfReading& reading) noexcept {
+    const RecordedSquare recorded = recorded_square(config.gyro, half);
     if (!recorded.known) return;
-    const double unit = arcsec_per_lambda2(gyro, bias_at(gyro, Celsius{half.temperature_c}));
-    const double angle = -reading.sign * unit * recorded.mean_sq_lambda2;
+    const double unit = arcsec_per_lambda2(config.gyro, bias_at(config.gyro, Celsius{half.temperature_c}));
+    const double over = config.relock.method == RelockMethod::joint ? recorded.over_trapezoid_lambda2 : 0.0;
+    const double angle = -reading.sign * unit * (recorded.mean_sq_lambda2 - over);
     const auto variance = static_cast<float>(square(unit) * recorded.variance_lambda4);
     if (!is_finite(angle + variance)) return;
     reading.false_arcsec = angle;
@@ -120,7 +121,7 @@ void read_halves(const GyroCompensationConfig& config, const HalfRecord& first, 
         reading.read = true;
         reading.angle_arcsec =
             0.5 * (tick.value_arcsec + tick.relock_arcsec + (k == 0 ? half_excess_arcsec : -half_excess_arcsec));
-        if (squares) read_record(config.gyro, k == 0 ? first : second, reading);
+        if (squares) read_record(config, k == 0 ? first : second, reading);
     }
 }
 
@@ -134,7 +135,7 @@ void read_lit_half(const GyroCompensationConfig& config, const GyroCompensationS
     reading.read = reading.lit = true;
     reading.angle_arcsec = config.gyro.scale.value() * counts_and_parts(half.counts, parts_between(from, to)) -
                            reading.sign * state.bias_arcsec;
-    read_record(config.gyro, half, reading);
+    read_record(config, half, reading);
 }
 
 // Measured ticks, more with the place within the count than without, after which the readings are taken to be such; and

@@ -41,12 +41,14 @@ FalseAngle false_angle(double value_arcsec, double variance_arcsec2) noexcept {
     return possible && is_finite(variance_arcsec2) ? FalseAngle{true, value_arcsec, variance_arcsec2} : FalseAngle{};
 }
 
-FalseAngle by_mean_square(const CompensationConstants& g, const RelockTick& t) noexcept {
+// Eq (13) by the mean squares as they are recorded, and of `joint` as the bias weighs them.
+FalseAngle by_mean_square(const CompensationConstants& g, const RelockTick& t, bool is_joint) noexcept {
     const RecordedSquare first = recorded_square(g, t.first), second = recorded_square(g, t.second);
     const double sum = t.first.detuning_sq_lambda2 + t.second.detuning_sq_lambda2;
     if (!(first.known && second.known && sum > 0.0 && sum < square(max_detuning_lambda))) return {};
     const double unit = sign_of(t) * arcsec_per_lambda2(g, bias_of(g, t));
-    return false_angle(unit * (second.mean_sq_lambda2 - first.mean_sq_lambda2),
+    const double over = is_joint ? second.over_trapezoid_lambda2 - first.over_trapezoid_lambda2 : 0.0;
+    return false_angle(unit * (second.mean_sq_lambda2 - first.mean_sq_lambda2 - over),
                        square(unit) * (first.variance_lambda4 + second.variance_lambda4));
 }
 
@@ -158,7 +160,7 @@ RelockDriftOutput step(const CompensationConstants& gyro, const RelockDriftConfi
     if (config.method == RelockMethod::detuning)
         found = by_detuning(gyro, tick);
     else if (config.method != RelockMethod::none)
-        found = by_mean_square(gyro, tick);  // of `joint` before the halves around the gap are weighed together
+        found = by_mean_square(gyro, tick, config.method == RelockMethod::joint);
     return {.due = true, .tick = or_missing(found, most_arcsec(gyro, state, tick))};
 }
 

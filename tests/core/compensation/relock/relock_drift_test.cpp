@@ -103,6 +103,45 @@ TEST(RelockDrift, ACentreOfTheBiasMovesTheFalseAngleByTheMeans) {
             }
 }
 
+// The bias reverses linearly within t_e about each border of a half, so that it weighs the square by a trapezoid:
+// `joint` takes that, of a detuning that changes evenly without an error. The paper's method takes the squares as they
+// are.
+TEST(RelockDrift, JointWeighsTheSquareAsABiasDoesThatReversesSlowly) {
+    constexpr double q = 0.03;  // t_e/T
+    struct Half {
+        double from_lambda, to_lambda;
+    };
+    constexpr Half first{0.2, 0.14}, second{0.14, 0.12};
+    const auto weighed = [](const Half& half, double edge) {
+        double sum = 0.0, weights = 0.0;
+        for (int k = 0; k < 100000; ++k) {
+            const double x = (k + 0.5) / 100000.0 * 0.5;  // of a tick, within its half
+            const double to_border = std::min(x, 0.5 - x);
+            const double weight = to_border < 0.5 * edge ? to_border / (0.5 * edge) : 1.0;
+            sum += weight * std::pow(half.from_lambda + 2.0 * x * (half.to_lambda - half.from_lambda), 2);
+            weights += weight;
+        }
+        return sum / weights;
+    };
+    const auto mean = [](const Half& half) { return 0.5 * (half.from_lambda + half.to_lambda); };
+    for (const RelockMethod method : {RelockMethod::joint, RelockMethod::mean_square}) {
+        Configured setup = fine(method);
+        setup.gyro.plateau_ratio = 1.0 / (1.0 - q);
+        setup.gyro.light_noise = Wavelengths{0.0};
+        RelockDriftState state;
+        enter_gap(state);
+        const Tick tick{.detuning_first_lambda = mean(first),
+                        .detuning_second_lambda = mean(second),
+                        .detuning_sq_first_lambda2 = weighed(first, 0.0),
+                        .detuning_sq_second_lambda2 = weighed(second, 0.0),
+                        .temperature_c = not_a_number};
+        const double edge = method == RelockMethod::joint ? q : 0.0;
+        const double fall = weighed(second, edge) - weighed(first, edge);
+        const double found = step(setup, state, tick).tick.value_arcsec;
+        EXPECT_NEAR(found / (arcsec_per_lambda2(setup.gyro, setup.gyro.bias) * fall), 1.0, 1e-9);
+    }
+}
+
 TEST(RelockDrift, EveryMethodFindsTheFalseAngleOfAnExponentialLoop) {
     for (const RelockMethod method : all_methods)
         for (const double dl0 : {0.22, -0.22, 0.05, -0.05})

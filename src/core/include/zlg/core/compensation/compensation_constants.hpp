@@ -91,6 +91,9 @@ enum class GyroCompensationFault : unsigned char {
     return 0.5 * gyro.chi * bias.value() * gyro.scale.value() * gyro.tick.value();
 }
 
+// Variance of the detuning within a half, without that of the noise of its samples.
+[[nodiscard]] double spread_lambda2(const CompensationConstants& gyro, const TrueMoments& seen) noexcept;
+
 // Mean of b_0 x^4 + ... over a half whose motion is that of two equal groups of samples (discriminator_curve.hpp).
 [[nodiscard]] double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen) noexcept;
 

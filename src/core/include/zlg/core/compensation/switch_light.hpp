@@ -63,6 +63,8 @@ struct RecordedSquare {
     bool known = false;
     double mean_sq_lambda2 = 0.0;  // without that of the noise; with what the loss of the bias has beyond it
     double variance_lambda4 = 0.0;
+    // What it has more than the mean weighed by the trapezoid of the bias, of a detuning that changes evenly.
+    double over_trapezoid_lambda2 = 0.0;
 };
 
 [[nodiscard]] RecordedSquare recorded_square(const CompensationConstants& gyro, const HalfRecord& half) noexcept;
