@@ -104,6 +104,9 @@ void check_agreement(const CalibrationTask& task, const Lab& lab) {
             throw config::ConfigError{
                 differ("gyro.reference_temperature_c", first.reference_temperature_c, gyro.reference_temperature_c) +
                 "; say in the configuration (--set) to which temperature the constants are to refer"};
+        if (lab.configs[k].perimeter.loop != lab.configs.front().perimeter.loop)
+            throw config::ConfigError{fmt::format("perimeter.loop differs between {} and {}; calibrate them apart",
+                                                  task.logs.front(), task.logs[k])};
     }
 }
 

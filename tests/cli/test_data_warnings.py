@@ -307,11 +307,13 @@ class NoMeasurements(ForeignCase):
         t = 25 + 10 * numpy.sin(numpy.arange(n) / 300)
         w = 9.0 + 2.0 * (t - 25) + self.rng.normal(0, 0.5, n)
         laws = []
-        for name, values in (("temp_c", t), ("temp_F", 32 + 1.8 * t), ("temp [\u00b0F]", 32 + 1.8 * t), ("T_K", 273.15 + t), ("T (m\u00b0C)", 1e3 * t)):
+        for name, values in (("temp_c", t), ("temp_F", 32 + 1.8 * t), ("temp [\u00b0F]", 32 + 1.8 * t), ("T_K", 273.15 + t), ("T (m\u00b0C)", 1e3 * t),
+                             ("temp [deg F]", 32 + 1.8 * t), ("temp/K", 273.15 + t), ("temp [ K ]", 273.15 + t), ("temp_mK", 1e3 * (273.15 + t)),
+                             ("temp.degC", t), ("T_1 [\u00b0 C]", t)):
             path = self.table("t.csv", f"w_dph,{name}", w, [f"{x:.9f}" for x in values])
             said = run("analyze", path, "--map", "rate_hz=1", "--map", "axis=w_dph", "--map", f"temperature_c={name}", "--json")
             laws.append(json.loads(said.stdout)["axes"][0]["temperature"]["bias"][1]["value"])
-            self.assertEqual("is taken in C" in said.stderr, name != "temp_c", name)
+            self.assertEqual("is taken in C" in said.stderr, values is not t, name)
         numpy.testing.assert_allclose(laws, laws[0], rtol=1e-6)
 
 

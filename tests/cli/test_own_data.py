@@ -81,6 +81,16 @@ class OwnLogs(CliTest):
                 self.assertEqual(self.angles(text.getvalue()), expected)
                 self.assertEqual(self.angles("\ufeff" + text.getvalue()), expected)
 
+    def test_temperatures_in_kelvin_become_degrees_celsius(self):
+        for row in self.rows:
+            row["temp_K"] = row.pop("temperature_c") + 273.15
+        out = self.folder / "raw.csv"
+        said = self.succeed("import", self.write("kelvin.csv", csv_text(self.rows, list(self.rows[0]), facts=False)), "--map", "tick_s=0.005", "--map", "scale_arcsec=3.263", "--map", "temperature_c=temp_K", "--out", out)
+        self.assertIn("'temp_K' is in K by its name, and is taken in C", said.stderr)
+        found = csv.DictReader(line for line in out.read_text().splitlines() if not line.startswith("#"))
+        for row, expected in zip(found, self.rows, strict=True):
+            self.assertAlmostEqual(float(row["temperature_c"]), expected["temp_K"] - 273.15, places=9)
+
     def test_hdf5_behind_a_user_block_is_read(self):
         plain = self.folder / "plain.h5"
         self.succeed("convert", self.write("raw.csv", csv_text(self.rows)), "--out", plain)

@@ -114,10 +114,11 @@ TEST(Calibrate, refuses_logs_that_do_not_go_together) {
         return Lab{{{"a", log_of(bench(1), 1.0)}, {"b", log_of(c, 1.0)}}};
     };
     const Lab tick = with("gyro.tick_s=0.01"), scale = with("gyro.scale_arcsec=3"),
-              temperature = with("gyro.reference_temperature_c=40");
+              temperature = with("gyro.reference_temperature_c=40"), loop = with("perimeter.loop=digital");
     EXPECT_EQ(refusal(tick.task()), "log: gyro.tick_s = 0.005 in a, 0.01 in b; allowed is one value");
     EXPECT_EQ(refusal(scale.task()), "log: gyro.scale_arcsec = 3.263 in a, 3 in b; allowed is one value");
     EXPECT_NE(refusal(temperature.task()).find("gyro.reference_temperature_c = 20 in a, 40 in b"), std::string::npos);
+    EXPECT_EQ(refusal(loop.task()), "configuration: perimeter.loop differs between a and b; calibrate them apart");
     // What the user says stands above both.
     study::CalibrationTask said = temperature.task();
     config::apply_set(said.said, "gyro.reference_temperature_c=30");

@@ -44,9 +44,9 @@ double spread_lambda2(const CompensationConstants& gyro, const TrueMoments& seen
     return seen.mean_sq_lambda2 - square(seen.mean_lambda) - square(seen.slope * gyro.light_noise.value());
 }
 
-double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen) noexcept {
+double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen, double part) noexcept {
     if (gyro.bend == LossBend{}) return 0.0;
-    const double spread_sq = spread_lambda2(gyro, seen);
+    const double spread_sq = part * spread_lambda2(gyro, seen);
     const double spread = spread_sq > 0.0 ? square_root(spread_sq) : 0.0;
     const double middle = seen.mean_lambda - gyro.centre.value();
     const double above = square(middle + spread), below = square(middle - spread);

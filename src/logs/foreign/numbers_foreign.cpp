@@ -63,8 +63,8 @@ public:
     StoredMatrix matrix() {
         const std::string head = read_head();
         // The dictionary as NumPy, and whoever writes for it, spells it.
-        static const std::regex spelled{
-            R"(\{ *'descr': *'([^'\\]*)', *'fortran_order': *(True|False), *'shape': *\((\d{1,18}),(?: *(\d{1,18}),?)?\),? *\})"};
+        static const std::regex spelled{R"(\{ *'descr': *'([^'\\]*)', *'fortran_order': *(True|False), )"
+                                        R"(*'shape': *\((\d{1,18}),(?: *(\d{1,18}),?)?\),? *\})"};
         std::smatch said;
         if (!std::regex_match(head, said, spelled)) fail("of another type or shape");
         const auto type = type_of(said.str(1));

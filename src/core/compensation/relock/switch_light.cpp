@@ -137,10 +137,13 @@ RecordedSquare recorded_square(const CompensationConstants& gyro, const HalfReco
     // With q = t_e/T the trapezoid weighs the halves of a tick: of x evenly over -1/2..1/2 the mean square is 1/12, and
     // with its weight (1 + (1 - 2 q)^2)/24, which is less by the part 2 q (1 - q).
     const double edge = 1.0 - 1.0 / gyro.plateau_ratio;
-    return {.known = true,
-            .mean_sq_lambda2 = above + beyond_square(gyro, seen),
-            .variance_lambda4 = variance,
-            .over_trapezoid_lambda2 = 2.0 * edge * (1.0 - edge) * spread_lambda2(gyro, seen)};
+    const double less = 2.0 * edge * (1.0 - edge);
+    const double beyond = beyond_square(gyro, seen);
+    return {
+        .known = true,
+        .mean_sq_lambda2 = above + beyond,
+        .variance_lambda4 = variance,
+        .over_trapezoid_lambda2 = less * spread_lambda2(gyro, seen) + beyond - beyond_square(gyro, seen, 1.0 - less)};
 }
 
 }  // namespace zlg::core

@@ -49,8 +49,7 @@ struct ImportedRaw {
     std::vector<std::string> warnings;  // of the times, a line each
 };
 
-// Half-periods: rows that are missing by the times or the numbers of the halves become halves with `valid` 0; rows of a
-// part of a half are added up where whole numbers of them make a half.
+// Half-periods: rows that are missing by the times or the numbers of the halves become halves with `valid` 0.
 //
 // errors  MappingError: something is missing or contradicts the file; FormatError: a value that a raw log cannot hold,
 // times that do not say where rows are missing, rows that do not make halves exactly; the reason is in the line.

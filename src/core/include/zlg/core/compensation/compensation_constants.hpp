@@ -94,8 +94,10 @@ enum class GyroCompensationFault : unsigned char {
 // Variance of the detuning within a half, without that of the noise of its samples.
 [[nodiscard]] double spread_lambda2(const CompensationConstants& gyro, const TrueMoments& seen) noexcept;
 
-// Mean of b_0 x^4 + ... over a half whose motion is that of two equal groups of samples (discriminator_curve.hpp).
-[[nodiscard]] double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen) noexcept;
+// Mean of b_0 x^4 + ... over a half whose motion is that of two equal groups of samples (discriminator_curve.hpp), of
+// which part of the variance counts.
+[[nodiscard]] double beyond_square(const CompensationConstants& gyro, const TrueMoments& seen,
+                                   double part = 1.0) noexcept;
 
 // f0 at a temperature; one beyond +-1e6 is none, like NaN: at the reference temperature.
 [[nodiscard]] Hertz bias_at(const CompensationConstants& gyro, Celsius temperature) noexcept;
