@@ -199,7 +199,10 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     observe(config, state, frame, seen);
     const std::optional<SwitchEvent> event = sequence(config, state, seen, advice);
     learn_stroke(config, state, seen, was_closed, event);
-    seen.regulated = regulate(config, state, seen, was_closed);
+    // Not kept in the observation: a copy of all its set-points would cost more than the loop.
+    const PerimeterLoopOutput regulated = regulate(config, state, seen, was_closed);
+    seen.over_limit = regulated.over_limit;
+    seen.near_range_end = regulated.near_range_end;
     seen.warms_up = track_warming(state);
 
     GyroControlOutput out{
@@ -207,7 +210,7 @@ GyroControlOutput step(const GyroControlConfig& config, GyroControlState& state,
     if (event) out.event = *event;
     out.switch_waits = state.schedule.waiting;
     state.was_beyond = seen.beyond;
-    command(state.mode_switch, seen.regulated, out.actuator);
+    command(state.mode_switch, regulated, out.actuator);
     const bool counted = seen.valid && seen.loop_closed && seen.reading.span == 1;
     out.actuator.edge_offset_ticks =
         next_edge(config.commutator, state.commutator, {counted, seen.counts, seen.polarity});

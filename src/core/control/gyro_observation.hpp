@@ -42,7 +42,8 @@ struct Observation {
 
     // Of what was decided on it.
     SwitchPhase phase = SwitchPhase::tracking;  // of the half itself
-    PerimeterLoopOutput regulated;
+    bool over_limit = false;                    // of the perimeter loop
+    bool near_range_end = false;
     bool half_wave_rejected = false;  // of a switch that has ended
     bool warms_up = false;
 };

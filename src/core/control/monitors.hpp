@@ -42,7 +42,7 @@ template <class Row>
     row(health_light_unbalanced, Loses::nothing, s.light_balance.changes || (o.monitored.unbalanced && !is_learning(s.light_balance)));
     row(health_light_contradicted, Loses::light, o.monitored.contradicted);
     row(health_detuning_unsteady, Loses::counts, o.unsteady);
-    row(health_detuning_over_limit, Loses::nothing, o.regulated.over_limit);
+    row(health_detuning_over_limit, Loses::nothing, o.over_limit);
     row(health_counter_jump, Loses::counts, o.beyond);
     row(health_rate_over_range, Loses::nothing, o.beyond && s.was_beyond);
     row(health_counter_bit_stuck, Loses::counts, o.bit_stuck);
@@ -57,7 +57,7 @@ template <class Row>
     row(health_relock_failed, Loses::nothing, o.phase == SwitchPhase::returning || o.phase == SwitchPhase::searching);
     row(health_searching, Loses::nothing, o.phase == SwitchPhase::searching);
     row(health_half_wave_rejected, Loses::nothing, o.half_wave_rejected);
-    row(health_piezo_near_range_end, Loses::nothing, o.regulated.near_range_end);
+    row(health_piezo_near_range_end, Loses::nothing, o.near_range_end);
     row(health_recentring, Loses::nothing, s.recentring);
     row(health_warming_up, Loses::nothing, o.warms_up);
     row(health_edges_shifted, Loses::nothing, c.commutator.dither.method != DitherMethod::none);
