@@ -42,9 +42,6 @@ std::string why_not(const wire::Reply& reply) {
             return fmt::format("its core refuses them, {} fault {}",
                                reply.part == wire::RefusingPart::control ? "control" : "compensation", reply.fault);
         case malformed:
-        case unknown_key:
-        case read_only:
-        case not_a_value:
             break;
     }
     return "it does not know the command; its image is older";
