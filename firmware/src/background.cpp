@@ -131,7 +131,7 @@ void Background::load(const wire::SettingsPiece& piece, wire::Reply& reply) noex
         reply.result = switch_under_way;
         return;
     }
-    hold_switching(true);
+    execute(wire::CommandCode::stop_switching);
     port::store(settings_in(bytes));
     restart_due_ = true;
 }
@@ -139,9 +139,10 @@ void Background::load(const wire::SettingsPiece& piece, wire::Reply& reply) noex
 void Background::execute(wire::CommandCode command) noexcept {
     using Code = wire::CommandCode;
     if (command == Code::read_state) status_due_ = true;
+    const port::Quiet quiet;
     if (command == Code::stop_switching || command == Code::start_switching)
-        hold_switching(command == Code::stop_switching);
-    if (command == Code::force_switch) force_switch();
+        gyro().hold_switching(command == Code::stop_switching);
+    if (command == Code::force_switch) gyro().force_switch();
 }
 
 }  // namespace zlg::firmware

@@ -59,16 +59,6 @@ core::ActuatorFrame start_gyro(const Settings& settings, std::optional<std::uint
     return first;
 }
 
-void hold_switching(bool held) noexcept {
-    const port::Quiet quiet;
-    gyro().hold_switching(held);
-}
-
-void force_switch() noexcept {
-    const port::Quiet quiet;
-    gyro().force_switch();
-}
-
 // A gyro that has no light, or not yet its own settings, searches for a mode without end.
 bool is_switching() noexcept {
     using enum core::SwitchPhase;

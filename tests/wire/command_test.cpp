@@ -22,7 +22,8 @@ TEST(Command, OfUnknownCodeOrOtherLengthIsRefused) {
         return !command_in({.type = MessageType::command, .body = bytes}).has_value();
     };
     EXPECT_FALSE(refused({1, 0}));
-    for (const std::uint8_t code : {0, 5, 6, 7, 8, 255}) EXPECT_TRUE(refused({code, 0})) << int{code};
+    for (const auto code : std::to_array<std::uint8_t>({0, 5, 6, 7, 8, 255}))
+        EXPECT_TRUE(refused({code, 0})) << int{code};
     EXPECT_TRUE(refused({1, 1}));
     EXPECT_TRUE(refused({1, 0, 0}));
     EXPECT_TRUE(refused({6, 1, 0x02, 0x04, 0, 0, 0, 0, 0, 0, 0xF0, 0x3F})) << "of a former version";

@@ -18,13 +18,10 @@
 namespace zlg::cli {
 namespace {
 
-struct FollowOptions {
+struct FollowOptions : Options {
     std::string source;
-    std::string out;
     int baud = logs::default_baud;
-    std::optional<double> duration_s;
-    bool force = false;
-    bool json = false;
+    std::optional<double> at_most_s;
 };
 
 // Until the source ends, a signal comes, or the log or the time is as long as was asked for.
@@ -80,11 +77,11 @@ nlohmann::json follow_json(const logs::Follower& follower, const FollowOptions& 
 void follow(const FollowOptions& options) {
     AngleRecording recording{options.source, options.out, options.force};
     refuse_own_input(options.source, options.out);
-    logs::Follower follower{options.source, options.baud, options.duration_s};
+    logs::Follower follower{options.source, options.baud, options.at_most_s};
     const Interruptible interruptible;
     interruptible.will_finish();
     try {
-        receive(follower, recording, options.duration_s, interruptible);
+        receive(follower, recording, options.at_most_s, interruptible);
         recording.close();
     } catch (...) {
         rethrow_with({recording.part_path()});
@@ -100,12 +97,10 @@ void add_follow(CLI::App& program) {
     verb->add_option("SOURCE", options->source,
                      "a file, a serial device, - for standard input, tcp:HOST:PORT or unix:PATH")
         ->required();
-    verb->add_option("--out", options->out, "angle log to write: .csv, .h5 or .hdf5")->check(is_a_name());
     verb->add_option("--baud", options->baud, "speed of a serial device (921600)");
-    verb->add_option("--duration", options->duration_s,
+    verb->add_option("--duration", options->at_most_s,
                      "end after so long, of the log or of the clock, whichever comes first");
-    verb->add_flag("--force", options->force, "overwrite what is there");
-    verb->add_flag("--json", options->json, "the result as one JSON object on standard output");
+    add_output_options(*verb, *options);
     verb->callback([options] { follow(*options); });
 }
 

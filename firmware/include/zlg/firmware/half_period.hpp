@@ -19,8 +19,6 @@ namespace zlg::firmware {
 core::ActuatorFrame start_gyro(const Settings& settings, std::optional<std::uint64_t> counter = {}) noexcept;
 
 // Called by the background (background.hpp); each masks the interrupt while it works.
-void hold_switching(bool held) noexcept;
-void force_switch() noexcept;                // once, as soon as the gyro is ready for it
 [[nodiscard]] bool is_switching() noexcept;  // from the opening of the loop to the lock, or until the mode is searched
 [[nodiscard]] wire::Status status_of_gyro() noexcept;
 
