@@ -66,7 +66,7 @@ private:
     std::optional<wire::Reply> listen(std::uint32_t sequence) {
         const auto end = Clock::now() + reply_patience;
         while (Clock::now() < end) {
-            interruptible_.check();
+            check_interrupt();
             std::array<std::uint8_t, 512> room{};
             std::size_t n = 0;
             const auto read = bytes_.read(room, n, 20);
@@ -86,7 +86,6 @@ private:
     logs::ByteSource bytes_;
     wire::Sender sender_{.session = any_session()};
     wire::Receiver receiver_;
-    Interruptible interruptible_;
 };
 
 }  // namespace

@@ -39,22 +39,7 @@ sigset_t handled_signals() {
     return signals;
 }
 
-double cpu_s() {
-    timespec t{};
-    (void)::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-struct Patience {
-    double wall_s;
-    double cpu_s;
-};
-
-// What a verb is given to end by itself: processor time, and as a limit for one that waits (or a busy machine) the time
-// of the clock. What runs out first ends it.
-Patience patience() {
-    return finishes ? Patience{.wall_s = 5.0, .cpu_s = 1.0} : Patience{.wall_s = 0.3, .cpu_s = 0.15};
-}
+double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // A file that is being renamed is given a second; not longer, for the file system may hang.
 [[noreturn]] void end_now() {
@@ -83,8 +68,10 @@ void watch(const sigset_t signals) {
     while (!has_ended) {
         const bool again = ::sigtimedwait(&signals, nullptr, &step) > 0;
         const double wall_s = std::chrono::duration<double>{Clock::now() - noted}.count();
-        const Patience most = patience();
-        if (has_ended || !(again || wall_s > most.wall_s || cpu_s() - cpu_before_s > most.cpu_s)) continue;
+        // What a verb is given to end by itself: processor time, and as a limit for one that waits (or a busy machine)
+        // the time of the clock. What runs out first ends it.
+        const double most_wall_s = finishes ? 5.0 : 0.3, most_cpu_s = finishes ? 1.0 : 0.15;
+        if (has_ended || !(again || wall_s > most_wall_s || cpu_s() - cpu_before_s > most_cpu_s)) continue;
         // One more is left to the system.
         ::pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
         end_now();
@@ -112,12 +99,12 @@ InterruptGuard::~InterruptGuard() {
     thread_.join();
 }
 
-void Interruptible::check() const {
-    if (is_noted()) throw logs::IoError{complaint};
+void check_interrupt() {
+    if (is_interrupted()) throw logs::IoError{complaint};
 }
 
-bool Interruptible::is_noted() const { return is_signalled.load(std::memory_order_relaxed); }
+bool is_interrupted() { return is_signalled.load(std::memory_order_relaxed); }
 
-void Interruptible::will_finish() const { finishes = true; }
+void will_finish() { finishes = true; }
 
 }  // namespace zlg::cli

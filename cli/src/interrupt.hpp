@@ -23,16 +23,14 @@ private:
 };
 
 // What a verb sees of it.
-class Interruptible {
-public:
-    // errors  logs::IoError where a signal has come.
-    void check() const;
+//
+// errors  logs::IoError where a signal has come.
+void check_interrupt();
 
-    // For a verb that has no other end than a signal.
-    [[nodiscard]] bool is_noted() const;
+// For a verb that has no other end than a signal.
+[[nodiscard]] bool is_interrupted();
 
-    // After a signal this verb completes its file, which may last some seconds.
-    void will_finish() const;
-};
+// After a signal this verb completes its file, which may last some seconds.
+void will_finish();
 
 }  // namespace zlg::cli

@@ -19,18 +19,9 @@ namespace {
 alignas(Background) constinit std::array<std::byte, sizeof(Background)> memory{};
 
 constexpr wire::CommandResult result_of(StoredFault fault) noexcept {
-    switch (fault) {
-        case StoredFault::none:
-            return wire::CommandResult::done;
-        case StoredFault::other_program:
-            return wire::CommandResult::other_program;
-        case StoredFault::refused:
-            return wire::CommandResult::not_allowed;
-        case StoredFault::other_kind:
-        case StoredFault::damaged:
-            break;
-    }
-    return wire::CommandResult::damaged;
+    using enum wire::CommandResult;
+    constexpr std::array results{done, damaged, damaged, other_program, not_allowed};  // of none, other_kind, ...
+    return results[static_cast<std::size_t>(fault)];
 }
 
 // Bytes of commands that one round takes.

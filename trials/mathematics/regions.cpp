@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/maths_kernels.hpp>
 
 #include "errors.hpp"
 

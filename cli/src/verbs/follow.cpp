@@ -25,15 +25,14 @@ struct FollowOptions : Options {
 };
 
 // Until the source ends, a signal comes, or the log or the time is as long as was asked for.
-void receive(logs::Follower& follower, AngleRecording& recording, const std::optional<double>& duration_s,
-             const Interruptible& interruptible) {
+void receive(logs::Follower& follower, AngleRecording& recording, const std::optional<double>& duration_s) {
     using Clock = std::chrono::steady_clock;
     constexpr std::int64_t stride_rows = 1024;  // between two looks at the clock
     const auto started = Clock::now();
     const logs::Settings settings = logs::line_settings();
     core::AngleRow row;
     while (true) {
-        if (interruptible.is_noted()) follower.stop();
+        if (is_interrupted()) follower.stop();
         const logs::Follower::Next next = follower.next(row);
         if (next == logs::Follower::Next::end) return;
         if (next == logs::Follower::Next::row) recording.write(row, *follower.rows().tick_s(), settings);
@@ -78,10 +77,9 @@ void follow(const FollowOptions& options) {
     AngleRecording recording{options.source, options.out, options.force};
     refuse_own_input(options.source, options.out);
     logs::Follower follower{options.source, options.baud, options.at_most_s};
-    const Interruptible interruptible;
-    interruptible.will_finish();
+    will_finish();
     try {
-        receive(follower, recording, options.at_most_s, interruptible);
+        receive(follower, recording, options.at_most_s);
         recording.close();
     } catch (...) {
         rethrow_with({recording.part_path()});

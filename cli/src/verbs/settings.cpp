@@ -60,23 +60,13 @@ void make(const SettingsOptions& options) {
 
 // What is wrong with the file; empty where nothing is.
 std::string objection(std::span<const std::uint8_t> bytes) {
-    using enum firmware::StoredFault;
-    switch (firmware::fault_of(bytes)) {
-        case none:
-            break;
-        case other_kind:
-            return "holds no settings; allowed is what `zlg settings --out` has written";
-        case damaged:
-            return fmt::format("{} bytes, whose checksum is wrong: it is cut or has changed; make it anew",
-                               bytes.size());
-        case other_program:
-            return fmt::format(
-                "is for the image of version {:016x}; allowed is {:016x}: make it anew with this program",
-                firmware::layout_in(bytes), firmware::layout());
-        case refused:
-            return "the core refuses these settings; make them anew";
-    }
-    return {};
+    const std::string by_fault[]{
+        "", "holds no settings; allowed is what `zlg settings --out` has written",
+        fmt::format("{} bytes, whose checksum is wrong: it is cut or has changed; make it anew", bytes.size()),
+        fmt::format("is for the image of version {:016x}; allowed is {:016x}: make it anew with this program",
+                    firmware::layout_in(bytes), firmware::layout()),
+        "the core refuses these settings; make them anew"};
+    return by_fault[static_cast<std::size_t>(firmware::fault_of(bytes))];
 }
 
 std::vector<std::uint8_t> read_settings(const std::string& path) {

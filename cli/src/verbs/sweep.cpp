@@ -145,7 +145,6 @@ void merge(const SweepOptions& options) {
 }
 
 void sweep_gyros(const SweepOptions& options, const sweep::Crew& crew) {
-    const Interruptible interruptible;
     Progress progress;
     sweep::Task task{.description = sweep::read_description(options.description),
                      .out = options.out,
@@ -153,9 +152,9 @@ void sweep_gyros(const SweepOptions& options, const sweep::Crew& crew) {
                      .crew = crew,
                      .force = options.force};
     if (!options.part.empty()) task.part = part_of(options.part);
-    task.is_stopped = [&] { return interruptible.is_noted(); };
+    task.is_stopped = [&] { return is_interrupted(); };
     task.on_progress = [&](std::int64_t done, std::int64_t asked) {
-        progress.show(static_cast<double>(done) / static_cast<double>(asked), static_cast<double>(asked), "gyros");
+        progress.show(static_cast<double>(done) / static_cast<double>(asked));
     };
     const sweep::Outcome outcome = sweep::run(task);
     if (outcome.is_stopped)
