@@ -9,6 +9,8 @@
 #include <zlg/logs/error.hpp>
 #include <zlg/sweep/row_text.hpp>
 
+#include "src/interrupt.hpp"
+
 namespace zlg::mpi {
 
 Distributor::Distributor(const sweep::Gyros& gyros, const std::vector<std::int64_t>& asked,
@@ -16,7 +18,7 @@ Distributor::Distributor(const sweep::Gyros& gyros, const std::vector<std::int64
     : gyros_{gyros}, asked_{asked}, take_{take}, others_(static_cast<std::size_t>(n_ranks())) {}
 
 bool Distributor::run() {
-    interruptible_.will_finish();
+    cli::will_finish();
     const std::string description = to_toml(gyros_.description());
     for (int rank = 1; rank < n_ranks(); ++rank) send(rank, Tag::description, description);
     std::thread here{[this] { run_here(); }};
@@ -29,7 +31,7 @@ bool Distributor::run() {
 void Distributor::serve_all() {
     for (int rank = 1; rank < n_ranks(); ++rank) serve(rank);
     while (!is_done_here_ || !is_everybody_idle()) {
-        if (interruptible_.is_noted()) stops_ = true;
+        if (cli::is_interrupted()) stops_ = true;
         if (stops_) stop_all();
         bool is_quiet = true;
         for (; const auto message = received(); is_quiet = false) obey(*message);

@@ -12,7 +12,6 @@
 #include <zlg/sweep/sweep.hpp>
 
 #include "messages.hpp"
-#include "src/interrupt.hpp"
 
 namespace zlg::mpi {
 
@@ -53,7 +52,6 @@ private:
     const sweep::Gyros& gyros_;
     const std::vector<std::int64_t>& asked_;
     const std::function<void(sweep::Row)>& take_;
-    cli::Interruptible interruptible_;
     std::vector<Other> others_;  // by rank; 0 is unused
     bool has_sent_stop_ = false;
 

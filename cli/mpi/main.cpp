@@ -41,7 +41,7 @@ int follow() {
 
 int main(int argc, char** argv) {
     cli::begin_program();
-    const mpi::Session session{argc, argv};
     const cli::InterruptGuard guard;
+    const mpi::Session session{argc, argv};
     return mpi::rank() == 0 ? lead(argc, argv) : follow();
 }

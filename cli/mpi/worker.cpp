@@ -9,6 +9,8 @@
 #include <zlg/sweep/motion_files.hpp>
 #include <zlg/sweep/row_text.hpp>
 
+#include "src/interrupt.hpp"
+
 namespace zlg::mpi {
 namespace {
 
@@ -27,11 +29,11 @@ sweep::Description same_program(const std::string& text) {
 }  // namespace
 
 void Worker::work() {
-    interruptible_.will_finish();
+    cli::will_finish();
     for (;;) {
         read_messages();
         if (is_ended_) return;
-        if (interruptible_.is_noted()) stop(Tag::stopped);
+        if (cli::is_interrupted()) stop(Tag::stopped);
         if (waiting_.empty())
             sleep_a_moment();
         else
@@ -69,7 +71,7 @@ void Worker::obey(const Message& message) {
 // Messages are read meanwhile, so that a run ends soon that rank 0 stops.
 bool Worker::is_stopped() {
     read_messages();
-    return is_stopped_ || is_ended_ || interruptible_.is_noted();
+    return is_stopped_ || is_ended_ || cli::is_interrupted();
 }
 
 void Worker::run_next() {

@@ -9,7 +9,6 @@
 #include <zlg/sweep/gyros.hpp>
 
 #include "messages.hpp"
-#include "src/interrupt.hpp"
 
 namespace zlg::mpi {
 
@@ -23,8 +22,6 @@ private:
     void run_next();
     void stop(Tag why, const std::string& text = {});
     [[nodiscard]] bool is_stopped();
-
-    cli::Interruptible interruptible_;
     std::optional<sweep::Gyros> gyros_;
     std::deque<std::int64_t> waiting_;
     bool is_stopped_ = false;

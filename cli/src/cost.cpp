@@ -15,13 +15,6 @@ namespace {
 // An estimate that is a third too high must not refuse what would fit.
 constexpr double certain = 2.0 / 3.0;
 
-std::string size_text(double bytes) {
-    if (bytes >= 1e15) return fmt::format("{:.3g} PB", bytes / 1e15);
-    if (bytes >= 1e12) return fmt::format("{:.3g} TB", bytes / 1e12);
-    if (bytes >= 1e9) return fmt::format("{:.3g} GB", bytes / 1e9);
-    return fmt::format("{:.3g} MB", bytes / 1e6);
-}
-
 std::optional<double> free_bytes(const std::string& out) {
     namespace fs = std::filesystem;
     std::error_code ignored;
@@ -46,10 +39,11 @@ void require_room(std::int64_t ticks, double bytes_a_tick, const std::string& ou
     const double bytes = static_cast<double>(ticks) * bytes_a_tick;
     const std::optional<double> room = free_bytes(out);
     if (!room || certain * bytes <= *room) return;
-    throw logs::IoError{fmt::format(
-        "{}: {:.6g} ticks need about {} of disk, {} are free; allowed is a shorter run.duration_s or a longer "
-        "gyro.tick_s",
-        out.empty() ? "--out" : out, static_cast<double>(ticks), size_text(bytes), size_text(*room))};
+    throw logs::IoError{
+        fmt::format("{}: {:.6g} ticks need about {:.3g} GB of disk, {:.3g} GB are free; allowed is a shorter "
+                    "run.duration_s or a longer "
+                    "gyro.tick_s",
+                    out.empty() ? "--out" : out, static_cast<double>(ticks), 1e-9 * bytes, 1e-9 * *room)};
 }
 
 }  // namespace zlg::cli

@@ -7,9 +7,10 @@
 namespace zlg::cli {
 
 // Bytes a tick of what a run writes, as runs of the paper's gyro show; other gyros differ by a few tens of percent.
-inline constexpr double raw_hdf5_bytes = 107.0;
-inline constexpr double raw_csv_bytes = 194.0;
 inline constexpr double angles_bytes = 60.0;  // CSV and HDF5
+[[nodiscard]] constexpr double raw_bytes(bool is_csv, int light_samples) {
+    return (is_csv ? 194.0 : 107.0) + 2.0 * 2.0 * sizeof(float) * light_samples;  // in both halves, of both beams
+}
 inline constexpr double wire_bytes = 124.0;
 
 // For a reader: "12 s", "3.4 hours".

@@ -32,6 +32,9 @@ void print_notes();
 // Of several processes only one speaks: from now on this one has no line for an error.
 void leave_errors_to_another();
 
+// With which the line of an error that ends the program ends; for the thread of `main` alone.
+inline std::string after_error;
+
 // The one line of an error, in place of what waits; from any thread. Only the first error has one.
 void report_error(const std::string& line);
 

@@ -42,9 +42,6 @@ std::string why_not(const wire::Reply& reply) {
             return fmt::format("its core refuses them, {} fault {}",
                                reply.part == wire::RefusingPart::control ? "control" : "compensation", reply.fault);
         case malformed:
-        case unknown_key:
-        case read_only:
-        case not_a_value:
             break;
     }
     return "it does not know the command; its image is older";
@@ -69,7 +66,7 @@ private:
     std::optional<wire::Reply> listen(std::uint32_t sequence) {
         const auto end = Clock::now() + reply_patience;
         while (Clock::now() < end) {
-            interruptible_.check();
+            check_interrupt();
             std::array<std::uint8_t, 512> room{};
             std::size_t n = 0;
             const auto read = bytes_.read(room, n, 20);
@@ -89,7 +86,6 @@ private:
     logs::ByteSource bytes_;
     wire::Sender sender_{.session = any_session()};
     wire::Receiver receiver_;
-    Interruptible interruptible_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -72,53 +73,36 @@ constexpr std::array verb_table{
              "  zlg accept --verify report.html static.csv table.csv"},
     VerbHelp{"design", designing,
              "  zlg design --out design.html\n"
-             "  zlg design --set drift.magnetic_arcsec_s=2 --run-lengths 600,3600\n"
+             "  zlg design --set drift.magnetic_arcsec_s=2 --set design.run_lengths_s=3600\n"
              "  zlg design --require require.toml --out chosen.toml"},
 };
 
-// Of the same name in every verb.
-struct Kind {
-    std::string_view option;
-    const char* value;
-};
-
-constexpr std::array kinds{
-    Kind{"CONFIG", "FILE.toml"},
-    Kind{"--config", "FILE.toml"},
-    Kind{"--set", "KEY=VALUE"},
-    Kind{"--seed", "NUMBER"},
-    Kind{"--duration", "SECONDS"},
-    Kind{"--threads", "NUMBER"},
-    Kind{"--out", "PATH"},
-    Kind{"--format", "h5|csv"},
-    Kind{"--logs", "none|angles|all"},
-    Kind{"--wire", "FILE"},
-    Kind{"RAW", "FILE"},
-    Kind{"FILE", ""},
-    Kind{"SWEEP", "FILE.toml"},
-    Kind{"--part", "K/N"},
-    Kind{"--page", "FILE.html"},
-    Kind{"--merge", "FILE.h5"},
-    Kind{"SOURCE", "FILE|DEVICE|ADDRESS"},
-    Kind{"--switches", "FILE.csv"},
-    Kind{"--give-up", "SECONDS"},
-    Kind{"--run-lengths", "SECONDS,..."},
-    Kind{"--to", "DEVICE|ADDRESS"},
-    Kind{"--require", "FILE.toml"},
-    Kind{"--rules", "paper"},
-    Kind{"--baud", "NUMBER"},
-    Kind{"--port", "NUMBER"},
-    Kind{"--mapping", "FILE.toml"},
-    Kind{"--map", "KEY=VALUE"},
-    Kind{"--write-mapping", "FILE.toml"},
-    Kind{"--rate-arcsec-s", "NUMBER,..."},
-    Kind{"--imu-yaml", "FILE.yaml"},
-    Kind{"--compare", "FILE.yaml"},
+// What kind of value the options of these names take in every verb.
+const std::pair<const char*, std::vector<const char*>> kinds[]{
+    {"FILE.toml", {"CONFIG", "--config", "SWEEP", "--require", "--mapping", "--write-mapping"}},
+    {"FILE", {"RAW", "--wire"}},
+    {"FILE.csv", {"--switches"}},
+    {"FILE.h5", {"--merge"}},
+    {"FILE.html", {"--page"}},
+    {"FILE.yaml", {"--imu-yaml", "--compare"}},
+    {"FILE|DEVICE|ADDRESS", {"SOURCE"}},
+    {"DEVICE|ADDRESS", {"--to"}},
+    {"PATH", {"--out"}},
+    {"", {"FILE"}},
+    {"KEY=VALUE", {"--set", "--map"}},
+    {"NUMBER", {"--seed", "--threads", "--baud", "--port"}},
+    {"NUMBER,...", {"--rate-arcsec-s"}},
+    {"SECONDS", {"--duration", "--give-up"}},
+    {"K/N", {"--part"}},
+    {"h5|csv", {"--format"}},
+    {"none|angles|all", {"--logs"}},
+    {"paper", {"--rules"}},
 };
 
 void name_kinds(CLI::App& verb) {
-    for (const Kind& kind : kinds)
-        if (CLI::Option* option = verb.get_option_no_throw(std::string{kind.option})) option->type_name(kind.value);
+    for (const auto& [value, options] : kinds)
+        for (const char* name : options)
+            if (CLI::Option* option = verb.get_option_no_throw(name)) option->type_name(value);
 }
 
 void complete(CLI::App& verb) {

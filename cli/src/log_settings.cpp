@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/rig/asked_compensation.hpp>
 
@@ -51,6 +53,12 @@ LogSettings understood(const Options& options, const config::Settings& settings,
     Understanding understanding{options, log_path, {}};
     understanding.take(settings);
     return std::move(understanding.found);
+}
+
+bool says(const config::Settings& settings, std::string_view fact) {
+    return std::ranges::any_of(settings, [fact](const auto& setting) {
+        return setting.first == fact || setting.first == fmt::format("gyro.{}", fact);
+    });
 }
 
 std::optional<int> final_delay_ticks(const LogSettings& settings) {

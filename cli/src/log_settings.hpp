@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <zlg/config/schema.hpp>
 
@@ -19,6 +20,9 @@ struct LogSettings {
 
 [[nodiscard]] LogSettings understood(const Options& options, const config::Settings& settings,
                                      const std::string& log_path);
+
+// Whether a log gives this fact, with or without its section.
+[[nodiscard]] bool says(const config::Settings& settings, std::string_view fact);
 
 // D, the delay of a final value, of angles with these settings; empty where they do not say by what these were
 // computed.

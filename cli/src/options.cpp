@@ -228,21 +228,8 @@ void rethrow_with(std::initializer_list<std::string> part_paths) {
     std::string note;
     for (const std::string& part : part_paths)
         if (text::is_own_output(part)) note += fmt::format("{}{}", note.empty() ? "" : ", ", part);
-    if (note.empty()) throw;
-    note = "; recorded until then: " + note;
-    try {
-        throw;
-    } catch (const logs::IoError& error) {
-        throw logs::IoError{error.what() + note};
-    } catch (const logs::FormatError& error) {
-        throw logs::FormatError{error.what() + note};
-    } catch (const text::OutputIsInput& error) {
-        throw text::OutputIsInput{error.what() + note};
-    } catch (const config::ConfigError& error) {
-        throw config::ConfigError{error.what() + note};
-    } catch (const std::exception& error) {
-        throw std::runtime_error{error.what() + note};
-    }
+    if (!note.empty()) after_error = "; recorded until then: " + note;
+    throw;
 }
 
 }  // namespace zlg::cli

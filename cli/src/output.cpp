@@ -27,7 +27,7 @@ double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock:
 constexpr double quiet_for_s = 1.0;
 constexpr double redraw_every_s = 0.1;
 constexpr int bar_width = 40;
-constexpr int line_width = bar_width + 50;  // with its brackets, the percentage, the rate and the time that is left
+constexpr int line_width = bar_width + 50;  // with its brackets, the percentage and the time that is left
 
 std::vector<std::string> notes;  // wait to be printed; for the thread of `main` alone
 bool is_quiet = false;
@@ -87,7 +87,7 @@ Progress::~Progress() {
     if (drawn_) (void)std::fputs(fmt::format("\r{:{}}\r", "", line_width).c_str(), stderr);
 }
 
-void Progress::show(double fraction, double whole, std::string_view unit) {
+void Progress::show(double fraction) {
     const double t_s = now_s();
     if (t_s - started_s_ < quiet_for_s || t_s - last_s_ < redraw_every_s) return;
     last_s_ = t_s;
@@ -96,11 +96,8 @@ void Progress::show(double fraction, double whole, std::string_view unit) {
     drawn_ = true;
     const int done = static_cast<int>(fraction * bar_width);
     const double left_s = (t_s - started_s_) * (1.0 - fraction) / fraction;
-    const std::string rate =
-        unit.empty() ? "" : fmt::format(", {:.3g} {}/s", fraction * whole / (t_s - started_s_), unit);
-    const std::string bar =
-        fmt::format("[{:=<{}}{:{}}] {:3.0f} %{}{}", "", done, "", bar_width - done, 100.0 * fraction, rate,
-                    fraction > 0.0 ? fmt::format(", {} left", time_text(left_s)) : "");
+    const std::string bar = fmt::format("[{:=<{}}{:{}}] {:3.0f} %{}", "", done, "", bar_width - done, 100.0 * fraction,
+                                        fraction > 0.0 ? fmt::format(", {} left", time_text(left_s)) : "");
     (void)std::fputs(fmt::format("\r{:<{}}", bar, line_width).c_str(), stderr);
     (void)std::fflush(stderr);
 }

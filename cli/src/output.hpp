@@ -27,8 +27,7 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // unit    where the rate of the work is shown: whole work in such units, as 1000 "gyros".
-    void show(double fraction, double whole = 0.0, std::string_view unit = {});
+    void show(double fraction);
 
 private:
     bool is_drawn_;  // on a terminal, and wanted

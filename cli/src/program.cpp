@@ -70,7 +70,7 @@ int guarded(CLI::App& program, int argc, char** argv) {
         report_error(fmt::format("cannot look up {}: {}", error.path1().string(), error.code().message()));
         return bad_input_or_output;
     } catch (const std::exception& error) {
-        report_error(error.what());
+        report_error(error.what() + after_error);
         return is_wrong_usage(error) ? wrong_usage : bad_input_or_output;
     }
 }

@@ -19,18 +19,9 @@ namespace {
 alignas(Background) constinit std::array<std::byte, sizeof(Background)> memory{};
 
 constexpr wire::CommandResult result_of(StoredFault fault) noexcept {
-    switch (fault) {
-        case StoredFault::none:
-            return wire::CommandResult::done;
-        case StoredFault::other_program:
-            return wire::CommandResult::other_program;
-        case StoredFault::refused:
-            return wire::CommandResult::not_allowed;
-        case StoredFault::other_kind:
-        case StoredFault::damaged:
-            break;
-    }
-    return wire::CommandResult::damaged;
+    using enum wire::CommandResult;
+    constexpr std::array results{done, damaged, damaged, other_program, not_allowed};  // of none, other_kind, ...
+    return results[static_cast<std::size_t>(fault)];
 }
 
 // Bytes of commands that one round takes.
@@ -43,13 +34,12 @@ Background& background() noexcept {
     return the_background;
 }
 
-void Background::start(const wire::GyroSettings& settings, std::uint16_t session) noexcept {
-    commands_.settings = settings;
+void Background::start(std::uint32_t settings_crc, std::uint16_t session) noexcept {
+    settings_crc_ = settings_crc;
     sender_.session = session;
 }
 
 void Background::run() noexcept {
-    if (settings_wait_) settings_wait_ = !try_change_settings(commands_.settings);
     send_rest();
     if (restart_due_ && sent_ == out_.size) port::restart();
     // One frame after the other: an answer first, for somebody waits for it.
@@ -81,9 +71,9 @@ void Background::send_tick() noexcept {
 }
 
 void Background::send_status() noexcept {
-    wire::Status now = status_of_gyro(commands_.settings.compensation);
+    wire::Status now = status_of_gyro();
     now.health = health_;
-    now.settings_crc = wire::settings_crc(commands_.settings);
+    now.settings_crc = settings_crc_;
     now.n_received = receiver_.n_good;
     now.n_damaged = receiver_.n_damaged;
     now.n_overruns = port::overruns();
@@ -102,10 +92,11 @@ void Background::listen() noexcept {
         if (!receive(receiver_, bytes, message)) continue;
         wire::CommandOutput out = handle(commands_, message);
         if (!out.has_reply) continue;
-        execute(out.effect);
-        if (out.effect.load) {
+        if (out.due == wire::CommandCode::load) {
             load(*piece_in(message), out.reply);
             commands_.last = out.reply;
+        } else if (out.due) {
+            execute(*out.due);
         }
         return queue(frame_of(sender_, out.reply));
     }
@@ -131,19 +122,18 @@ void Background::load(const wire::SettingsPiece& piece, wire::Reply& reply) noex
         reply.result = switch_under_way;
         return;
     }
-    hold_switching(true);
+    execute(wire::CommandCode::stop_switching);
     port::store(settings_in(bytes));
     restart_due_ = true;
 }
 
-void Background::execute(const wire::CommandEffect& effect) noexcept {
-    if (effect.settings_changed) {
-        settings_wait_ = !try_change_settings(commands_.settings);
-        port::store(commands_.settings);
-    }
-    if (effect.stop_switching || effect.start_switching) hold_switching(effect.stop_switching);
-    if (effect.force_switch) force_switch();
-    status_due_ = status_due_ || effect.send_status;
+void Background::execute(wire::CommandCode command) noexcept {
+    using Code = wire::CommandCode;
+    if (command == Code::read_state) status_due_ = true;
+    const port::Quiet quiet;
+    if (command == Code::stop_switching || command == Code::start_switching)
+        gyro().hold_switching(command == Code::stop_switching);
+    if (command == Code::force_switch) gyro().force_switch();
 }
 
 }  // namespace zlg::firmware

@@ -11,9 +11,9 @@ namespace zlg::firmware {
 
 class Background {
 public:
-    // settings  the gyro was started with.
-    // session   number of this start; differs from that of the last.
-    void start(const wire::GyroSettings& settings, std::uint16_t session) noexcept;
+    // settings_crc  of those that the gyro was started with.
+    // session       number of this start; differs from that of the last.
+    void start(std::uint32_t settings_crc, std::uint16_t session) noexcept;
 
     // One round. It sends what the line takes and never waits for it; while the gyro works it goes on sending.
     void run() noexcept;
@@ -24,7 +24,7 @@ private:
     void send_tick() noexcept;
     void send_status() noexcept;
     void listen() noexcept;
-    void execute(const wire::CommandEffect& effect) noexcept;
+    void execute(wire::CommandCode command) noexcept;
     void load(const wire::SettingsPiece& piece, wire::Reply& reply) noexcept;
     void queue(const wire::Frame& frame) noexcept;
 
@@ -33,7 +33,7 @@ private:
     wire::Receiver receiver_{};
     wire::Frame out_{};  // on its way
     std::size_t sent_ = 0;
-    bool settings_wait_ = false;  // for the border of a tick
+    std::uint32_t settings_crc_ = 0;
     bool status_due_ = false;
     bool restart_due_ = false;  // once the reply is out
     std::uint32_t health_ = 0;

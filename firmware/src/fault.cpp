@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
+
+#include <zlg/wire/crc.hpp>
 
 namespace zlg::firmware {
 namespace {
@@ -35,29 +38,13 @@ constexpr std::array meanings{Meaning{undefined, FaultKind::undefined_instructio
                               Meaning{instruction_violation, FaultKind::bad_branch},
                               Meaning{memory_any, FaultKind::forbidden_address}};
 
-constexpr std::array<std::string_view, 15> names{"none",
-                                                 "undefined_instruction",
-                                                 "no_coprocessor",
-                                                 "unaligned",
-                                                 "divide_by_zero",
-                                                 "bad_branch",
-                                                 "bus_error",
-                                                 "forbidden_address",
-                                                 "stack_overflow",
-                                                 "hard_fault",
-                                                 "unexpected_interrupt",
-                                                 "assertion",
-                                                 "half_period_hung",
-                                                 "background_hung",
-                                                 "reset"};
+#define ZLG_NAME(name) #name,
+constexpr std::string_view names[]{ZLG_FAULT_KINDS(ZLG_NAME)};
+#undef ZLG_NAME
 
 // Not 0 of a record of zeros, so that cleared memory is no record.
 std::uint32_t sum_of(const FaultRecord& r) noexcept {
-    std::uint32_t hash = 0x811c9dc5;
-    for (const std::uint32_t word : {static_cast<std::uint32_t>(r.kind), r.pc, r.lr, r.sp, r.cfsr, r.hfsr, r.address,
-                                     r.detail, r.halves, r.overruns})
-        for (int shift = 0; shift < 32; shift += 8) hash = (hash ^ ((word >> shift) & 0xff)) * 0x01000193;
-    return hash;
+    return wire::crc32c({reinterpret_cast<const std::uint8_t*>(&r), offsetof(FaultRecord, sum)});
 }
 
 void append(FaultText& text, std::string_view word) noexcept {
@@ -92,12 +79,12 @@ FaultRecord seal(FaultRecord record) noexcept {
 }
 
 bool is_sound(const FaultRecord& record) noexcept {
-    return static_cast<std::size_t>(record.kind) < names.size() && record.sum == sum_of(record);
+    return static_cast<std::size_t>(record.kind) < std::size(names) && record.sum == sum_of(record);
 }
 
 std::string_view name_of(FaultKind kind) noexcept {
     const auto number = static_cast<std::size_t>(kind);
-    return number < names.size() ? names[number] : "unknown";
+    return number < std::size(names) ? names[number] : "unknown";
 }
 
 FaultText text_of(const FaultRecord& record) noexcept {

@@ -7,6 +7,7 @@
 #include <new>
 
 #include <zlg/firmware/port.hpp>
+#include <zlg/firmware/stored.hpp>
 
 #include "background.hpp"
 #include "telemetry_queue.hpp"
@@ -51,28 +52,11 @@ Gyro& gyro() noexcept {
 
 core::ActuatorFrame start_gyro(const Settings& settings, std::optional<std::uint64_t> counter) noexcept {
     telemetry_queue().restart();
-    background().start(settings, static_cast<std::uint16_t>(port::starts()));
+    background().start(settings_crc(settings), static_cast<std::uint16_t>(port::starts()));
     const core::ActuatorFrame first = gyro().start(settings, counter.value_or(0));
     if (!counter) gyro().forget_counter();
     gyro().work_in_background();
     return first;
-}
-
-bool try_change_settings(const Settings& settings) noexcept {
-    const port::Quiet quiet;
-    if (gyro().is_within_tick()) return false;
-    gyro().change(settings);
-    return true;
-}
-
-void hold_switching(bool held) noexcept {
-    const port::Quiet quiet;
-    gyro().hold_switching(held);
-}
-
-void force_switch() noexcept {
-    const port::Quiet quiet;
-    gyro().force_switch();
 }
 
 // A gyro that has no light, or not yet its own settings, searches for a mode without end.
@@ -83,9 +67,10 @@ bool is_switching() noexcept {
     return state.phase == open || state.phase == returning || (state.phase == settling && state.switching);
 }
 
-wire::Status status_of_gyro(const core::GyroCompensationConfig& config) noexcept {
+wire::Status status_of_gyro() noexcept {
     const port::Quiet quiet;
-    wire::Status status = wire::status_of(gyro().state().control, gyro().state().compensation, config);
+    const GyroState& state = gyro().state();
+    wire::Status status = wire::status_of(state.control, state.compensation, gyro().settings().compensation);
     status.n_switches = n_switches;
     status.n_failed = n_failed;
     return status;

@@ -38,6 +38,10 @@ void put_stored(const Settings& settings, std::span<std::uint8_t, stored_bytes> 
     std::memcpy(to.data() + stored_bytes - crc_bytes, &crc, crc_bytes);
 }
 
+std::uint32_t settings_crc(const Settings& settings) noexcept {
+    return wire::crc32c({reinterpret_cast<const std::uint8_t*>(&settings), sizeof settings});
+}
+
 StoredFault fault_of(std::span<const std::uint8_t> bytes) noexcept {
     if (bytes.size() < kind.size() || std::memcmp(bytes.data(), kind.data(), kind.size()) != 0)
         return StoredFault::other_kind;

@@ -14,27 +14,14 @@ namespace {
 std::vector<std::string> words(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
 
 // What a program that fills a Config from outside must know of the value.
-struct TellKind {
-    KeyInfo& info;
-    const Config& defaults;
-
-    void operator()(const Real&) const { info.kind = ValueKind::real; }
-    void operator()(const OptionalReal&) const { info.kind = ValueKind::optional_real; }
-    void operator()(const Integer&) const { info.kind = ValueKind::integer; }
-    void operator()(const Text&) const { info.kind = ValueKind::text; }
-    void operator()(const RealList&) const { info.kind = ValueKind::reals; }
-    void operator()(const Column&) const { info.kind = ValueKind::column; }
-    void operator()(const Points&) const { info.kind = ValueKind::points; }
-    void operator()(const Interval&) const { info.kind = ValueKind::interval; }
-    void operator()(const ChoiceList& slot) const {
-        info.kind = ValueKind::choices;
-        info.choices = words(slot.names);
-    }
-    void operator()(const Choice& slot) const {
-        info.kind = slot.get(defaults) < 0 ? ValueKind::optional_choice : ValueKind::choice;
-        info.choices = words(slot.names);
-    }
-};
+void tell_kind(const Slot& slot, KeyInfo& info) {
+    info.kind = static_cast<ValueKind>(slot.index());
+    if (const auto* choices = std::get_if<ChoiceList>(&slot)) info.choices = words(choices->names);
+    const auto* choice = std::get_if<Choice>(&slot);
+    if (choice == nullptr) return;
+    info.choices = words(choice->names);
+    if (choice->get({}) < 0) info.kind = ValueKind::optional_choice;
+}
 
 }  // namespace
 
@@ -82,7 +69,7 @@ std::vector<KeyInfo> describe_keys() {
                          allowed_text(key),
                          {},
                          {}});
-        std::visit(TellKind{infos.back(), defaults}, key.slot);
+        tell_kind(key.slot, infos.back());
     }
     return infos;
 }

@@ -2,62 +2,65 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <span>
+#include <utility>
 #include <zlg/config/log_settings.hpp>
 
 namespace zlg::config {
 namespace {
 
-constexpr std::string_view motion_is_learnt = "leave it out: the motion is learnt";
-constexpr std::string_view value_is_fixed = "leave it out: its default is what is done";
-constexpr std::string_view layout_is_mapped = "take --map with the same key";
+constexpr std::string_view learnt[]{"compensation.prior", "compensation.prior_band_hz",
+                                    "compensation.prior_rate_arcsec_s", "compensation.prior_line_hz",
+                                    "compensation.prior_line_arcsec_s"};
 
-constexpr std::array<FormerKey, 43> formers{{
-    {"gyro", "coil_current", "", 3, "leave it out: the current is monitored, and not recorded"},
-    {"switching", "after_step", "", 3, "leave it out: a switch waits for its time"},
-    {"switching", "schedule", "growing", 3, "take switching.schedule = \"measured\""},
-    {"compensation", "bridge", "optimal", 3, "take compensation.bridge = \"auto\""},
-    {"compensation", "prior", "", 3, motion_is_learnt},
-    {"compensation", "prior_band_hz", "", 3, motion_is_learnt},
-    {"compensation", "prior_rate_arcsec_s", "", 3, motion_is_learnt},
-    {"compensation", "prior_line_hz", "", 3, motion_is_learnt},
-    {"compensation", "prior_line_arcsec_s", "", 3, motion_is_learnt},
-    {"gyro", "counter_max_hz", "", 3, "leave it out: the counter follows the bias and 400 deg/s"},
-    {"laser", "scatter_phase_deg", "", 3, value_is_fixed},
-    {"laser", "comparator_threshold", "", 3, value_is_fixed},
-    {"perimeter", "sample_gain", "", 3, value_is_fixed},
-    {"perimeter", "settled_tau_s", "", 3, value_is_fixed},
-    {"perimeter", "set_points", "", 3, value_is_fixed},
-    {"piezo", "mirror_damping", "", 3, value_is_fixed},
-    {"piezo", "dac_bits", "", 3, value_is_fixed},
-    {"piezo", "adc_bits", "", 3, value_is_fixed},
-    {"piezo", "adc_noise_v", "", 3, value_is_fixed},
-    {"photodiodes", "skew_s", "", 3, value_is_fixed},
-    {"photodiodes", "jitter_s", "", 3, value_is_fixed},
-    {"switching", "last_segment", "", 3, "leave it out: the last segment is what the end of the run leaves of it"},
-    {"switching", "switch_error_arcsec", "", 3, value_is_fixed},
-    {"switching", "magnetic_arcsec_s", "", 3, value_is_fixed},
-    {"faults", "vibration_hz", "", 3, value_is_fixed},
-    {"analysis", "taus_per_decade", "", 3, "name the times in analysis.taus_s"},
-    {"analysis", "taus", "log", 3, "name the times in analysis.taus_s"},
-    {"analysis", "least_known_ratio", "", 3, value_is_fixed},
-    {"analysis", "total_bias", "", 3, "leave it out: as_computed stands beside the deviation"},
-    {"analysis", "angles", "", 3, "leave it out: the final angles are analysed"},
-    {"analysis", "latitude_deg", "", 3,
+constexpr std::string_view fixed[]{"laser.scatter_phase_deg",
+                                   "laser.comparator_threshold",
+                                   "perimeter.sample_gain",
+                                   "perimeter.settled_tau_s",
+                                   "perimeter.set_points",
+                                   "piezo.mirror_damping",
+                                   "piezo.dac_bits",
+                                   "piezo.adc_bits",
+                                   "piezo.adc_noise_v",
+                                   "photodiodes.skew_s",
+                                   "photodiodes.jitter_s",
+                                   "switching.switch_error_arcsec",
+                                   "switching.magnetic_arcsec_s",
+                                   "faults.vibration_hz",
+                                   "analysis.least_known_ratio",
+                                   "analysis.table_same_rate_ratio"};
+
+constexpr std::string_view mapped[]{"analysis.comment", "analysis.skip_lines", "analysis.separator",
+                                    "analysis.decimal"};
+
+constexpr std::pair<std::span<const std::string_view>, std::string_view> groups[]{
+    {learnt, "leave it out: the motion is learnt"},
+    {fixed, "leave it out: its default is what is done"},
+    {mapped, "take --map with the same key"},
+};
+
+constexpr FormerKey others[]{
+    {"gyro.coil_current", "", "leave it out: the current is monitored, and not recorded"},
+    {"switching.after_step", "", "leave it out: a switch waits for its time"},
+    {"switching.schedule", "growing", "take switching.schedule = \"measured\""},
+    {"compensation.bridge", "optimal", "take compensation.bridge = \"auto\""},
+    {"gyro.counter_max_hz", "", "leave it out: the counter follows the bias and 400 deg/s"},
+    {"switching.last_segment", "", "leave it out: the last segment is what the end of the run leaves of it"},
+    {"analysis.taus_per_decade", "", "name the times in analysis.taus_s"},
+    {"analysis.taus", "log", "name the times in analysis.taus_s"},
+    {"analysis.total_bias", "", "leave it out: as_computed stands beside the deviation"},
+    {"analysis.angles", "", "leave it out: the final angles are analysed"},
+    {"analysis.latitude_deg", "",
      "leave it out: the Earth turns 15.041067 arcsec/s times sine of latitude about the vertical"},
-    {"analysis", "table_same_rate_ratio", "", 3, value_is_fixed},
-    {"analysis", "column", "", 3, "take --map axis=COLUMN"},
-    {"analysis", "column_holds", "", 3, "take --map holds=rate, increment or angle"},
-    {"analysis", "scale_arcsec", "", 3, "take --map unit=..., or unit=counts with scale_arcsec=..."},
-    {"analysis", "rate_hz", "", 3, "take --map rate_hz=..., where no column of times says it"},
-    {"analysis", "comment", "", 3, layout_is_mapped},
-    {"analysis", "skip_lines", "", 3, layout_is_mapped},
-    {"analysis", "separator", "", 3, layout_is_mapped},
-    {"analysis", "decimal", "", 3, layout_is_mapped},
-    {"analysis", "time_column", "", 3, "take --map time=COLUMN, or time=none"},
-    {"analysis", "table_column", "", 3, "take --map table_rate=COLUMN"},
-    {"analysis", "table_scale_arcsec_s", "", 3, "take --map table_unit=..."},
-}};
+    {"analysis.column", "", "take --map axis=COLUMN"},
+    {"analysis.column_holds", "", "take --map holds=rate, increment or angle"},
+    {"analysis.scale_arcsec", "", "take --map unit=..., or unit=counts with scale_arcsec=..."},
+    {"analysis.rate_hz", "", "take --map rate_hz=..., where no column of times says it"},
+    {"analysis.time_column", "", "take --map time=COLUMN, or time=none"},
+    {"analysis.table_column", "", "take --map table_rate=COLUMN"},
+    {"analysis.table_scale_arcsec_s", "", "take --map table_unit=..."},
+};
 
 // Without blanks about it and the quotes of a text.
 std::string_view bare(std::string_view value) {
@@ -69,26 +72,22 @@ std::string_view bare(std::string_view value) {
 
 }  // namespace
 
-const FormerKey* find_former(std::string_view section, std::string_view name, std::string_view value) {
-    for (const FormerKey& former : formers)
-        if (former.section == section && former.name == name && (former.value.empty() || former.value == bare(value)))
-            return &former;
-    return nullptr;
+std::optional<FormerKey> find_former(std::string_view key, std::string_view value) {
+    for (const FormerKey& other : others)
+        if (other.key == key && (other.value.empty() || other.value == bare(value))) return other;
+    for (const auto& [keys, now] : groups)
+        if (const auto found = std::ranges::find(keys, key); found != keys.end()) return FormerKey{*found, "", now};
+    return std::nullopt;
 }
 
 std::string shown(const FormerKey& former) {
-    const std::string value = former.value.empty() ? "" : fmt::format(" = \"{}\"", former.value);
-    return fmt::format("{}.{}{}", former.section, former.name, value);
+    return std::string{former.key} + (former.value.empty() ? "" : fmt::format(" = \"{}\"", former.value));
 }
 
 std::optional<std::string> former_keys_note(const Settings& log_settings, std::string_view log_name) {
     std::string found;
-    for (const auto& [key, value] : log_settings) {
-        const auto dot = std::min(key.find('.'), key.size());
-        const std::string_view name = dot == key.size() ? std::string_view{} : std::string_view{key}.substr(dot + 1);
-        const FormerKey* former = find_former(std::string_view{key}.substr(0, dot), name, value);
-        if (former != nullptr) found += (found.empty() ? "" : ", ") + shown(*former);
-    }
+    for (const auto& [key, value] : log_settings)
+        if (const auto former = find_former(key, value)) found += (found.empty() ? "" : ", ") + shown(*former);
     if (found.empty()) return std::nullopt;
     return fmt::format("{}: settings of a former version are stepped over: {}", log_name, found);
 }

@@ -7,16 +7,15 @@
 
 namespace zlg::config {
 
+// All since format_version 3 of logs.
 struct FormerKey {
-    std::string_view section;
-    std::string_view name;
+    std::string_view key;
     std::string_view value;  // that is gone; empty: the key is, with all its values
-    int since = 0;           // the format_version of logs that first was without it
     std::string_view now;    // what to do in its place
 };
 
 // value  as TOML.
-[[nodiscard]] const FormerKey* find_former(std::string_view section, std::string_view name, std::string_view value);
+[[nodiscard]] std::optional<FormerKey> find_former(std::string_view key, std::string_view value);
 
 // `section.key`, with the value where only that is gone.
 [[nodiscard]] std::string shown(const FormerKey& former);

@@ -122,21 +122,6 @@ constexpr Choice choice(std::span<const std::string_view> names) {
             [](Config& c, int index) { c.*Section.*Member = static_cast<Enum>(index); }};
 }
 
-// The same where the enumeration has more than these enumerators, or numbers that are not 0, 1, ...
-template <auto Section, auto Member, auto... Enumerators>
-constexpr Choice choice_of(std::span<const std::string_view> names) {
-    return {names,
-            [](const Config& c) {
-                int index = 0;
-                (void)((Enumerators == c.*Section.*Member || (++index, false)) || ...);
-                return index;
-            },
-            [](Config& c, int index) {
-                constexpr std::array all{Enumerators...};
-                c.*Section.*Member = all.at(static_cast<std::size_t>(index));
-            }};
-}
-
 template <auto Section, auto Member>
 constexpr Choice optional_choice(std::span<const std::string_view> names) {
     using Enum = typename TypeOf<Section, Member>::value_type;
@@ -159,7 +144,8 @@ constexpr ChoiceList choice_list(std::span<const std::string_view> names) {
             }};
 }
 
-using Slot = std::variant<Real, OptionalReal, Integer, Text, RealList, ChoiceList, Interval, Choice, Column, Points>;
+// In the order of ValueKind.
+using Slot = std::variant<Real, OptionalReal, Integer, Text, RealList, Choice, ChoiceList, Interval, Column, Points>;
 
 struct Key {
     std::string_view section;

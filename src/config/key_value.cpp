@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,11 +19,12 @@ struct Overload : F... {
 template <class... F>
 Overload(F...) -> Overload<F...>;
 
-std::string list_text(const std::vector<double>& values) {
-    if (values.size() == 1) return text::toml_real(values.front());
-    std::string text = "[";
-    for (const double value : values) text += (text.size() > 1 ? ", " : "") + text::toml_real(value);
-    return text + "]";
+// One element stands alone.
+template <class Element, class ToText>
+std::string list_text(const std::vector<Element>& elements, const ToText& text_of) {
+    std::string text;
+    for (const Element& each : elements) text += (text.empty() ? "" : ", ") + text_of(each);
+    return elements.size() == 1 ? text : "[" + text + "]";
 }
 
 std::string points_text(const Course& course) {
@@ -51,9 +54,7 @@ std::string choice_text(const Choice& slot, const Config& config) {
 std::string choices_text(const ChoiceList& slot, const Config& config) {
     const std::vector<int> indices = slot.get(config);
     if (indices.empty()) return {};
-    std::string text;
-    for (const int index : indices) text += (text.empty() ? "" : ", ") + name_text(slot.names, index);
-    return indices.size() == 1 ? text : "[" + text + "]";
+    return list_text(indices, [&](int index) { return name_text(slot.names, index); });
 }
 
 bool is_number(const std::string& column) {
@@ -73,26 +74,19 @@ std::string column_text(const std::string& column) {
     return column.empty() || is_number(column) ? column : text::toml_string(column);
 }
 
-bool all_within(const Range& range, const std::vector<double>& values) {
-    for (const double value : values) {
-        if (!contains(range, value)) return false;
-    }
-    return true;
-}
-
 bool is_within(const Slot& slot, const Config& config) {
     return std::visit(
         Overload{[&](const Real& s) { return contains(s.range, s.value(config)); },
                  [&](const OptionalReal& s) { return !s.value(config) || contains(s.range, *s.value(config)); },
                  [&](const Integer& s) { return contains(s, s.get(config)); }, [&](const Text&) { return true; },
                  [&](const RealList& s) {
-                     return (s.may_be_empty || !s.value(config).empty()) && all_within(s.range, s.value(config));
+                     const std::vector<double>& all = s.value(config);
+                     return (s.may_be_empty || !all.empty()) &&
+                            std::ranges::all_of(all, [&](double value) { return contains(s.range, value); });
                  },
                  [&](const ChoiceList& s) {
-                     for (const int index : s.get(config)) {
-                         if (index < 0 || index >= static_cast<int>(s.names.size())) return false;
-                     }
-                     return true;
+                     return std::ranges::all_of(s.get(config),
+                                                [&](int i) { return i >= 0 && i < static_cast<int>(s.names.size()); });
                  },
                  [&](const Interval& s) {
                      return config.switching.interval_optimal || contains(s.range, config.switching.interval_s);
@@ -108,21 +102,23 @@ bool is_within(const Slot& slot, const Config& config) {
 std::string dotted(const Key& key) { return fmt::format("{}.{}", key.section, key.name); }
 
 std::string value_text(const Key& key, const Config& config) {
-    return std::visit(
-        Overload{
-            [&](const Real& s) { return text::toml_real(s.value(config)); },
-            [&](const OptionalReal& s) { return s.value(config) ? text::toml_real(*s.value(config)) : std::string{}; },
-            [&](const Integer& s) { return fmt::format("{}", s.get(config)); },
-            [&](const Text& s) { return text::toml_string(s.value(config)); },
-            [&](const RealList& s) {
-                return s.may_be_empty && s.value(config).empty() ? std::string{} : list_text(s.value(config));
-            },
-            [&](const ChoiceList& s) { return choices_text(s, config); },
-            [&](const Interval&) { return interval_text(config.switching); },
-            [&](const Choice& s) { return choice_text(s, config); },
-            [&](const Column& s) { return column_text(s.value(config)); },
-            [&](const Points& s) { return points_text(s.value(config)); }},
-        key.slot);
+    return std::visit(Overload{[&](const Real& s) { return text::toml_real(s.value(config)); },
+                               [&](const OptionalReal& s) {
+                                   return s.value(config) ? text::toml_real(*s.value(config)) : std::string{};
+                               },
+                               [&](const Integer& s) { return fmt::format("{}", s.get(config)); },
+                               [&](const Text& s) { return text::toml_string(s.value(config)); },
+                               [&](const RealList& s) {
+                                   return s.may_be_empty && s.value(config).empty()
+                                              ? std::string{}
+                                              : list_text(s.value(config), text::toml_real);
+                               },
+                               [&](const ChoiceList& s) { return choices_text(s, config); },
+                               [&](const Interval&) { return interval_text(config.switching); },
+                               [&](const Choice& s) { return choice_text(s, config); },
+                               [&](const Column& s) { return column_text(s.value(config)); },
+                               [&](const Points& s) { return points_text(s.value(config)); }},
+                      key.slot);
 }
 
 std::string allowed_text(const Key& key) {

@@ -155,9 +155,9 @@ void assign(const Key& key, const toml::node& node, Config& config) {
 
 void assign_at(const std::string& place, std::string_view section, std::string_view name, const toml::node& node,
                Config& config) {
-    if (const FormerKey* former = find_former(section, name, node.value<std::string_view>().value_or("")))
-        fail(place,
-             fmt::format("{} is gone since format_version {} of logs; {}", shown(*former), former->since, former->now));
+    if (const auto former =
+            find_former(fmt::format("{}.{}", section, name), node.value<std::string_view>().value_or("")))
+        fail(place, fmt::format("{} is gone since format_version 3 of logs; {}", shown(*former), former->now));
     const Key* key = find_key(section, name);
     if (key == nullptr) {
         fail(place, fmt::format("unknown key [{}] {}; did you mean {}?", section, name, nearest_key(section, name)));

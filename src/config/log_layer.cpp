@@ -15,7 +15,7 @@ namespace {
 bool is_ours(std::string_view dotted_key, std::string_view value) {
     const auto dot = dotted_key.find('.');
     if (dot == std::string_view::npos || !is_known_section(dotted_key.substr(0, dot))) return false;
-    return find_former(dotted_key.substr(0, dot), dotted_key.substr(dot + 1), value) == nullptr;
+    return !find_former(dotted_key, value);
 }
 
 // These say how the counts were recorded, so that another value would make wrong angles of them.

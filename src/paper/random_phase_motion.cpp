@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include <zlg/chance/address.hpp>
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/maths_kernels.hpp>
 
 namespace zlg::paper {
 RandomPhaseMotion::RandomPhaseMotion(const SubstitutionExperiment& e, const SwitchGrid& grid)
@@ -14,7 +14,7 @@ RandomPhaseMotion::RandomPhaseMotion(const SubstitutionExperiment& e, const Swit
         const chance::Address of_switch{
             .seed = e.seed, .cause = chance::Cause::phase_at_switch, .half = static_cast<std::uint64_t>(k)};
         const double u = uniform(of_switch, 0);
-        const auto [sine, cosine] = core::maths::sincos_turns(u);
+        const auto [sine, cosine] = core::maths::sincos_turns_kernel(u);
         about_gap_.push_back(frequency_hz_ > 0.0 ? Quadratures{sine, cosine} : Quadratures{2.0 * u - 1.0, 0.0});
     }
 }

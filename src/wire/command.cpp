@@ -5,37 +5,21 @@
 namespace zlg::wire {
 namespace {
 
-constexpr std::size_t command_head_bytes = 2;
+constexpr std::size_t command_bytes = 2;
 constexpr std::size_t piece_head_bytes = 4;
-constexpr std::size_t reply_head_bytes = 13;
-constexpr std::size_t parameter_bytes = 10;
+constexpr std::size_t reply_bytes = 13;
 
-void pack(Packer& p, const Parameters& parameters) noexcept {
-    p(parameters.n);
-    for (std::size_t k = 0; k < parameters.n && k < max_parameters; ++k)
-        p(parameters.items[k].key, parameters.items[k].value);
-}
-
-// In a body of the length that their number asks for.
-bool unpack(Unpacker& u, std::size_t left_bytes, Parameters& parameters) noexcept {
-    u(parameters.n);
-    if (parameters.n > max_parameters || left_bytes != parameters.n * parameter_bytes) return false;
-    for (std::size_t k = 0; k < parameters.n; ++k) u(parameters.items[k].key, parameters.items[k].value);
-    return true;
-}
-
-// The numbers before the parameters in their order.
+// The numbers in their order; where a former version had parameters stand zeros.
 template <class Codec, class AnyReply>
-void lay_out(Codec& codec, AnyReply& r) noexcept {
-    codec(r.session, r.sequence, r.code, r.result, r.key, r.part, r.fault);
+void lay_out(Codec& codec, AnyReply& r, std::uint16_t& key, std::uint8_t& n) noexcept {
+    codec(r.session, r.sequence, r.code, r.result, key, r.part, r.fault, n);
 }
 
 }  // namespace
 
-Frame frame_of(Sender& sender, const Command& command) noexcept {
+Frame frame_of(Sender& sender, CommandCode command) noexcept {
     Packer p;
-    p(command.code);
-    pack(p, command.parameters);
+    p(command, std::uint8_t{0});
     return frame_of(sender, MessageType::command, p.body());
 }
 
@@ -48,19 +32,18 @@ Frame frame_of(Sender& sender, const SettingsPiece& piece) noexcept {
 
 Frame frame_of(Sender& sender, const Reply& reply) noexcept {
     Packer p;
-    lay_out(p, reply);
-    pack(p, reply.parameters);
+    std::uint16_t key = 0;
+    std::uint8_t n = 0;
+    lay_out(p, reply, key, n);
     return frame_of(sender, MessageType::reply, p.body());
 }
 
-std::optional<Command> command_in(const Message& message) noexcept {
-    if (message.type != MessageType::command || message.body.size() < command_head_bytes) return std::nullopt;
-    Unpacker u{message.body};
-    Command command;
-    u(command.code);
-    if (command.code < CommandCode::read_state || command.code > CommandCode::set_parameters) return std::nullopt;
-    if (!unpack(u, message.body.size() - command_head_bytes, command.parameters)) return std::nullopt;
-    return command;
+std::optional<CommandCode> command_in(const Message& message) noexcept {
+    if (piece_in(message)) return CommandCode::load;
+    if (message.type != MessageType::command || message.body.size() != command_bytes) return std::nullopt;
+    const CommandCode code{message.body[0]};
+    if (code < CommandCode::read_state || code > CommandCode::force_switch || message.body[1] != 0) return std::nullopt;
+    return code;
 }
 
 std::optional<SettingsPiece> piece_in(const Message& message) noexcept {
@@ -75,12 +58,13 @@ std::optional<SettingsPiece> piece_in(const Message& message) noexcept {
 }
 
 std::optional<Reply> reply_in(const Message& message) noexcept {
-    if (message.type != MessageType::reply || message.body.size() < reply_head_bytes) return std::nullopt;
+    if (message.type != MessageType::reply || message.body.size() != reply_bytes) return std::nullopt;
     Unpacker u{message.body};
     Reply reply;
-    lay_out(u, reply);
+    std::uint16_t key = 0;
+    std::uint8_t n = 0;
+    lay_out(u, reply, key, n);
     if (reply.result > CommandResult::switch_under_way || reply.part > RefusingPart::compensation) return std::nullopt;
-    if (!unpack(u, message.body.size() - reply_head_bytes, reply.parameters)) return std::nullopt;
     return reply;
 }
 

@@ -48,10 +48,6 @@ Unstuffed unstuff(std::span<std::uint8_t> bytes) noexcept {
 
 namespace {
 
-void put_u32(std::span<std::uint8_t> at, std::uint32_t x) noexcept {
-    for (std::size_t k = 0; k < 4; ++k) at[k] = static_cast<std::uint8_t>(x >> (8 * k));
-}
-
 // The message that the bytes between two zeros are, if they are one.
 bool take_message(Receiver& r, Message& message) noexcept {
     const Unstuffed unstuffed = unstuff(std::span{r.held}.first(r.n_held));
@@ -94,17 +90,12 @@ bool end_frame(Receiver& r, Message& message) noexcept {
 Frame frame_of(Sender& sender, MessageType type, std::span<const std::uint8_t> body) noexcept {
     Frame frame;
     if (body.size() > max_body_bytes) return frame;
-    std::array<std::uint8_t, max_message_bytes> message{};
-    message[0] = wire_version;
-    message[1] = static_cast<std::uint8_t>(type);
-    message[2] = static_cast<std::uint8_t>(sender.session);
-    message[3] = static_cast<std::uint8_t>(sender.session >> 8);
-    put_u32(std::span{message}.subspan(4), sender.sequence++);
-    for (std::size_t k = 0; k < body.size(); ++k) message[header_bytes + k] = body[k];
-    const std::size_t covered = header_bytes + body.size();
-    put_u32(std::span{message}.subspan(covered), crc32c(std::span{message}.first(covered)));
+    Packer message;
+    message(wire_version, type, sender.session, sender.sequence++);
+    for (const std::uint8_t byte : body) message(byte);
+    message(crc32c(message.body()));
     // The array is of zeros: those in front and behind stand there.
-    frame.size = 2 + stuff(std::span{message}.first(covered + crc_bytes), std::span{frame.bytes}.subspan(1));
+    frame.size = 2 + stuff(message.body(), std::span{frame.bytes}.subspan(1));
     return frame;
 }
 

@@ -31,17 +31,13 @@ public:
     [[nodiscard]] std::span<const std::uint8_t> body() const noexcept { return std::span{bytes_}.first(n_); }
 
 private:
-    void put(std::uint64_t x) noexcept {
-        put(static_cast<std::uint32_t>(x));
-        put(static_cast<std::uint32_t>(x >> 32));
-    }
     template <class Bits>
     void put(Bits x) noexcept {
         for (std::size_t k = 0; k < sizeof x && n_ < bytes_.size(); ++k)
             bytes_[n_++] = static_cast<std::uint8_t>(x >> (8 * k));
     }
 
-    std::array<std::uint8_t, max_body_bytes> bytes_{};
+    std::array<std::uint8_t, max_message_bytes> bytes_{};
     std::size_t n_ = 0;
 };
 
@@ -58,15 +54,10 @@ public:
 private:
     template <class Bits>
     [[nodiscard]] Bits taken() noexcept {
-        if constexpr (sizeof(Bits) == 8) {
-            const Bits low = taken<std::uint32_t>();
-            return low | Bits{taken<std::uint32_t>()} << 32;
-        } else {
-            std::uint32_t x = 0;
-            for (std::size_t k = 0; k < sizeof(Bits) && k < left_.size(); ++k) x |= std::uint32_t{left_[k]} << (8 * k);
-            left_ = left_.subspan(sizeof(Bits) < left_.size() ? sizeof(Bits) : left_.size());
-            return static_cast<Bits>(x);
-        }
+        std::uint64_t x = 0;
+        for (std::size_t k = 0; k < sizeof(Bits) && k < left_.size(); ++k) x |= std::uint64_t{left_[k]} << (8 * k);
+        left_ = left_.subspan(sizeof(Bits) < left_.size() ? sizeof(Bits) : left_.size());
+        return static_cast<Bits>(x);
     }
 
     std::span<const std::uint8_t> left_;

@@ -21,7 +21,7 @@ def least(budget, run_s):
 class Optimum(CliTest):
     def optimum(self, lengths, *settings):
         options = [word for setting in settings for word in ("--set", setting)]
-        result = json.loads(self.succeed("design", "--json", "--run-lengths", lengths, *options).stdout)
+        result = json.loads(self.succeed("design", "--json", "--set", f"design.run_lengths_s=[{lengths}]", *options).stdout)
         return {(line["run_s"], line["method"]): (line["interval_s"], line["drift_arcsec_s"]) for line in result["optimum"]}
 
     def check(self, a, om, tau, nm, dp, *settings):
@@ -48,7 +48,7 @@ class Optimum(CliTest):
 
 class Refusals(CliTest):
     def test_what_is_no_gyro_and_no_run(self):
-        for arguments in (["--run-lengths", "-5"], ["--run-lengths", "abc"], ["--run-lengths", ""], ["--run-lengths", "600] #"],
+        for arguments in (["--set", "design.run_lengths_s=-5"], ["--set", "design.run_lengths_s=abc"],
                           ["--set", "drift.thermal_time_s=0"], ["--set", "design.switch_error_arcsec=0"],
                           ["--set", "drift.magnetic_arcsec_s=0", "--set", "drift.magnetic_thermal_arcsec_s=0"],
                           ["--set", "compensation.points_before=1", "--set", "compensation.points_after=1"],

@@ -57,7 +57,7 @@ class Require(CliTest):
 
     def test_bad_usage_is_one_line(self):
         path = self.required("angle_error_arcsec = 30")
-        for arguments in (["--require", path, "--run-lengths", "600"], ["--require", path, "--config", path],
+        for arguments in (["--require", path, "--config", path],
                           ["--rules", "paper"], ["--require", path, "--rules", "mine"], ["--require", path, "--out", "a.pdf"],
                           ["--require", self.folder / "none.toml"], ["--require", path, "--set", "gyro.tick_s=-1"],
                           ["--require", path, "--out", path]):

@@ -33,10 +33,10 @@ def cpu_s(pid):
 
 
 def catches(pid, number):
-    """Whether the process has asked for the signal."""
+    """Whether the process takes the signal itself: it is blocked, and waited for."""
     try:
         with open(f"/proc/{pid}/status") as status:
-            return bool(int(re.search(r"^SigCgt:\s*(\w+)$", status.read(), re.M).group(1), 16) >> (number - 1) & 1)
+            return bool(int(re.search(r"^SigBlk:\s*(\w+)$", status.read(), re.M).group(1), 16) >> (number - 1) & 1)
     except (FileNotFoundError, ProcessLookupError, AttributeError):
         return False
 

@@ -18,7 +18,6 @@ ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("ZLG_BUILD", ROOT / "build" / "release")).resolve()
 IMAGE = BUILD / "firmware" / "zlg_gyro.elf"
 ZLG = BUILD / "bin" / "zlg"
-INTERVAL, SETTLE = 0x0402, 0x0503  # parameters of the line
 PATIENCE_S = 20.0  # of this machine under load; in the emulator all is done within some ticks
 F_SETPIPE_SZ = 1031  # of Linux; older modules do not name it
 
@@ -102,13 +101,13 @@ class Host:
                 return found
         raise TimeoutError(f"{len(self.messages)} messages, none was it")
 
-    def repeat(self, sequence, code, *parameters):
-        self.send(line.command(self.session, sequence, code, *parameters))
+    def repeat(self, sequence, code):
+        self.send(line.command(self.session, sequence, code))
         return self.listen_until(lambda m: m.kind == REPLY and (m.to_session, m.to_sequence) == (self.session, sequence))
 
-    def load(self, data):
-        """The reply to the piece that ends it."""
-        for at in [*range(0, len(data), line.PIECE_BYTES), len(data)]:
+    def load(self, data, ends=True):
+        """The reply to the piece that ends it, or without it to the last one."""
+        for at in [*range(0, len(data), line.PIECE_BYTES), *[len(data)] * ends]:
             self.sequence += 1
             self.send(line.piece(self.session, self.sequence, at, data[at:at + line.PIECE_BYTES]))
             reply = self.listen_until(lambda m: m.kind == REPLY and m.to_sequence == self.sequence)
@@ -116,9 +115,9 @@ class Host:
                 break
         return reply
 
-    def ask(self, code, *parameters):
+    def ask(self, code):
         self.sequence += 1
-        return self.repeat(self.sequence, code, *parameters)
+        return self.repeat(self.sequence, code)
 
     def status(self):
         """Asked for: the first one after the reply."""
@@ -152,4 +151,4 @@ class WireTest(unittest.TestCase):
         return host
 
     def assert_done(self, reply):
-        self.assertEqual((reply.result, reply.key, reply.part, reply.fault), (line.DONE, 0, 0, 0))
+        self.assertEqual((reply.result, reply.part, reply.fault), (line.DONE, 0, 0))

@@ -3,8 +3,10 @@
 import struct
 
 TELEMETRY, STATUS, COMMAND, REPLY = 1, 2, 3, 4
-READ_STATE, STOP, START, FORCE, READ, SET, LOAD = range(1, 8)
-DONE, MALFORMED, UNKNOWN_KEY, READ_ONLY, NO_VALUE, NOT_ALLOWED, DAMAGED, OTHER_PROGRAM, SWITCHING = range(9)
+READ_STATE, STOP, START, FORCE = range(1, 5)
+LOAD = 7
+DONE, MALFORMED = 0, 1
+NOT_ALLOWED, DAMAGED, OTHER_PROGRAM, SWITCHING = range(5, 9)
 PIECE_BYTES = 224
 BODY_BYTES = {TELEMETRY: 108, STATUS: 96}
 
@@ -47,11 +49,8 @@ def frame(kind, session, sequence, body):
     return b"\0" + stuffed(message + struct.pack("<I", crc32c(message))) + b"\0"
 
 
-def command(session, sequence, code, *parameters):
-    """parameters: (key, value) to set, or keys to read."""
-    items = [item if isinstance(item, tuple) else (item, 0.0) for item in parameters]
-    return frame(COMMAND, session, sequence, struct.pack("<BB", code, len(items)) +
-                 b"".join(struct.pack("<Hd", *item) for item in items))
+def command(session, sequence, code):
+    return frame(COMMAND, session, sequence, struct.pack("<BB", code, 0))
 
 
 def piece(session, sequence, offset, data=b""):
@@ -81,11 +80,10 @@ class Message:
             struct.unpack_from("<IIIIII", body, 72)
 
     def reply(self, body):
-        (self.to_session, self.to_sequence, self.code, self.result, self.key, self.part, self.fault, n) = \
-            struct.unpack_from("<HIBBHBBB", body)
-        if len(body) != 13 + 10 * n:
-            raise ValueError(f"{n} parameters in {len(body)} bytes")
-        self.values = dict(struct.unpack_from("<Hd", body, 13 + 10 * k) for k in range(n))
+        (self.to_session, self.to_sequence, self.code, self.result, zero, self.part, self.fault, end) = \
+            struct.unpack("<HIBBHBBB", body)
+        if zero or end:
+            raise ValueError(f"{zero} and {end} where zeros must be")
 
 
 class Decoder:

@@ -38,6 +38,14 @@ TEST(Stored, are_the_settings_of_this_program) {
     EXPECT_EQ(settings_in(stored.bytes).compensation.gyro.tick, core::Seconds{0.004});
 }
 
+TEST(Stored, have_a_number_of_their_own) {
+    const Bytes stored{of_a_gyro()};
+    const Bytes others{Settings{}};
+    EXPECT_EQ(settings_crc(settings_in(stored.bytes)),
+              wire::crc32c(std::span{stored.bytes}.subspan(16, sizeof(Settings))));
+    EXPECT_NE(settings_crc(settings_in(stored.bytes)), settings_crc(settings_in(others.bytes)));
+}
+
 #if __has_builtin(__builtin_clear_padding)
 // Whatever lay where the settings were made. Clang 14 knows no way to clear padding: what it builds loads into a gyro
 // as well, but two files of the same settings may differ in bytes that nobody reads.

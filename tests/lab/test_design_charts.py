@@ -15,7 +15,7 @@ def shown(text, pattern):
 class DesignCharts(PageCase):
     def of_the_program(self, *settings):
         options = [word for setting in settings for word in ("--set", setting)]
-        return json.loads(zlg("design", "--json", "--run-lengths", 3600, *options).stdout)
+        return json.loads(zlg("design", "--json", "--set", "design.run_lengths_s=3600", *options).stdout)
 
     def open(self, *settings):
         """The text of the card. No switch has been measured yet."""

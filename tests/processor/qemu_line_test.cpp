@@ -111,29 +111,15 @@ TEST(QemuLine, tells_bit_by_bit_what_this_program_tells) {
     EXPECT_NE(expected.front().mode, expected[200].mode) << "the gyro has switched";
 }
 
-constexpr std::uint16_t interval_ticks = 0x0402;
 constexpr int second = 400;  // halves
-
-wire::Command about(std::uint16_t key, wire::CommandCode code) {
-    wire::Command command{.code = code};
-    command.parameters.items[0].key = key;
-    command.parameters.n = 1;
-    return command;
-}
 
 // A host that sends one command after the other while the gyro runs.
 class Driven {
 public:
     explicit Driven(const std::string& image) : qemu_{{.image = image, .line = line_.name()}} {}
 
-    // The value of one parameter, as the gyro answers.
-    double value_of(std::uint16_t key) {
-        (void)switches_during(about(key, wire::CommandCode::read_parameters));
-        return line_.hear().replies.back().parameters.items[0].value;
-    }
-
     // The switches that end while this command is answered, and in `halves` after it.
-    int switches_after(const wire::Command& command, int halves) {
+    int switches_after(wire::CommandCode command, int halves) {
         int n = switches_during(command);
         for (int k = 0; k < halves; ++k) n += advance();
         return n;
@@ -164,7 +150,7 @@ public:
 
 private:
     // Until it is answered.
-    int switches_during(const wire::Command& command) {
+    int switches_during(wire::CommandCode command) {
         const std::size_t n_replies = line_.hear().replies.size();
         line_.send(frame_of(sender_, command));
         int n = 0;
@@ -181,26 +167,6 @@ private:
     bool is_closed_ = true;
 };
 
-TEST(QemuLine, the_parameters_are_those_that_the_gyro_was_started_with) {
-    const auto image = test::built_image();
-    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
-    EXPECT_EQ(Driven{*image}.value_of(interval_ticks), 200.0) << "of 1 s";
-}
-
-TEST(QemuLine, what_is_set_is_what_the_gyro_runs_by) {
-    const auto image = test::built_image();
-    if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
-    Driven gyro{*image};
-    // No command meanwhile: how long the emulator takes to hear one is its own affair.
-    int slow = 0;
-    for (int k = 0; k < 5 * second; ++k) slow += gyro.advance();
-    EXPECT_GE(slow, 4);
-    EXPECT_LE(slow, 6);
-    wire::Command command = about(interval_ticks, wire::CommandCode::set_parameters);
-    command.parameters.items[0].value = 100.0;
-    EXPECT_GE(gyro.switches_after(command, 5 * second), 9) << "two a second";
-}
-
 // The host sets the pace: while it waits for the answer the gap goes on.
 TEST(QemuLine, nothing_is_loaded_while_a_switch_is_under_way) {
     const auto image = test::built_image();
@@ -216,20 +182,20 @@ TEST(QemuLine, nothing_is_loaded_while_a_switch_is_under_way) {
             wire::CommandResult::done);
     while (gyro.is_closed()) (void)gyro.advance();
     EXPECT_EQ(gyro.answer({.offset = firmware::stored_bytes}), wire::CommandResult::switch_under_way);
-    EXPECT_EQ(gyro.switches_after({.code = wire::CommandCode::read_state}, second), 1) << "the gyro goes on";
+    EXPECT_EQ(gyro.switches_after(wire::CommandCode::read_state, second), 1) << "the gyro goes on";
 }
 
 TEST(QemuLine, switching_stops_is_forced_and_starts_again) {
     const auto image = test::built_image();
     if (!image) GTEST_SKIP() << "no image of the processor, or no emulator";
     Driven gyro{*image};
-    (void)gyro.switches_after({.code = wire::CommandCode::stop_switching}, second);
+    (void)gyro.switches_after(wire::CommandCode::stop_switching, second);
     const int mode = gyro.last_mode();
-    EXPECT_EQ(gyro.switches_after({.code = wire::CommandCode::read_state}, 5 * second), 0) << "stopped";
+    EXPECT_EQ(gyro.switches_after(wire::CommandCode::read_state, 5 * second), 0) << "stopped";
     EXPECT_EQ(gyro.last_mode(), mode);
-    EXPECT_EQ(gyro.switches_after({.code = wire::CommandCode::force_switch}, 5 * second), 1) << "forced, once";
+    EXPECT_EQ(gyro.switches_after(wire::CommandCode::force_switch, 5 * second), 1) << "forced, once";
     EXPECT_EQ(gyro.last_mode(), -mode);
-    EXPECT_GE(gyro.switches_after({.code = wire::CommandCode::start_switching}, 5 * second), 4) << "one a second";
+    EXPECT_GE(gyro.switches_after(wire::CommandCode::start_switching, 5 * second), 4) << "one a second";
 }
 
 }  // namespace zlg::qemu_line_test

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include <zlg/chance/draw.hpp>
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/maths_kernels.hpp>
 
 #include "synthetic/gyro.hpp"
 
@@ -161,9 +161,11 @@ double manoeuvre_angle(ManoeuvreLaw law, double duration_s, double t_s) {
     const double x = t_s / duration_s;
     if (law == ManoeuvreLaw::exponential) return duration_s * (x + core::maths::expm1(-3.0 * x) / 3.0);
     if (law == ManoeuvreLaw::pulse)
-        return x < 1.0 ? 0.5 * duration_s * (x - core::maths::sin_turns(x) / (2.0 * pi)) : 0.5 * duration_s;
+        return x < 1.0 ? 0.5 * duration_s * (x - core::maths::sincos_turns_kernel(x).sin / (2.0 * pi))
+                       : 0.5 * duration_s;
     if (x >= 1.0) return duration_s * (x - 0.5);
-    return duration_s * (law == ManoeuvreLaw::linear ? 0.5 * x * x : 0.5 * (x - core::maths::sin_turns(0.5 * x) / pi));
+    return duration_s *
+           (law == ManoeuvreLaw::linear ? 0.5 * x * x : 0.5 * (x - core::maths::sincos_turns_kernel(0.5 * x).sin / pi));
 }
 
 std::vector<std::vector<std::vector<SwitchError>>> run_manoeuvres(const ManoeuvreTrial& trial,

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/maths_kernels.hpp>
 #include <zlg/trials/magnetic_gate.hpp>
 
 namespace zlg::trials {
@@ -14,7 +14,8 @@ using chance::Draw;
 constexpr double tick_s = 0.005;
 
 BaseRate sine(double amplitude, double frequency_hz, double phase) {
-    return [=](double t_s, int) { return amplitude * core::maths::sin_turns(frequency_hz * t_s + phase); };
+    return
+        [=](double t_s, int) { return amplitude * core::maths::sincos_turns_kernel(frequency_hz * t_s + phase).sin; };
 }
 
 // Changes its sign every half-period.

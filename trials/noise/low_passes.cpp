@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/maths_kernels.hpp>
 
 namespace zlg::trials {
 namespace {
@@ -57,7 +57,7 @@ std::vector<double> hann(std::size_t n) {
 double square_of(std::span<const double> c, double frequency_hz) {
     double re = 0.0, im = 0.0;
     for (std::size_t k = 0; k < c.size(); ++k) {
-        const maths::SinCos turned = maths::sincos_turns(frequency_hz * static_cast<double>(k));
+        const maths::SinCos turned = maths::sincos_turns_kernel(frequency_hz * static_cast<double>(k));
         re += c[k] * turned.cos;
         im += c[k] * turned.sin;
     }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <zlg/core/common/maths.hpp>
+#include <zlg/core/common/maths_kernels.hpp>
 
 namespace zlg::trials {
 namespace {
@@ -45,10 +45,11 @@ double FringeReader::converted(double value) const {
 
 core::FringeReadoutInput FringeReader::sample(double phase_counts, chance::Draw& draw) const {
     const double place = phase_counts - std::floor(phase_counts);
-    const double c = law_.offset_cosine + core::maths::cos_turns(place) + law_.noise * draw.normal();
-    const double s = law_.offset_sine +
-                     (1.0 + law_.amplitude_error) * core::maths::sin_turns(place + law_.angle_error_deg / 360.0) +
-                     law_.noise * draw.normal();
+    const double c = law_.offset_cosine + core::maths::sincos_turns_kernel(place).cos + law_.noise * draw.normal();
+    const double s =
+        law_.offset_sine +
+        (1.0 + law_.amplitude_error) * core::maths::sincos_turns_kernel(place + law_.angle_error_deg / 360.0).sin +
+        law_.noise * draw.normal();
     return {.present = true,
             .c = static_cast<float>(converted(c)),
             .s = static_cast<float>(converted(s)),

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "src/as_json.hpp"
 #include "src/failure.hpp"
 #include "src/interrupt.hpp"
+#include "src/log_settings.hpp"
 #include "src/options.hpp"
 #include "src/output.hpp"
 #include "src/verbs.hpp"
@@ -35,12 +35,6 @@ void warn(const ConvertOptions& options, const std::vector<std::string>& warning
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", options.file));
 }
 
-bool says(const config::Settings& settings, std::string_view fact) {
-    return std::ranges::any_of(settings, [fact](const auto& setting) {
-        return setting.first == fact || setting.first == fmt::format("gyro.{}", fact);
-    });
-}
-
 // Nothing is invented: what the log does not say, the copy does not say either.
 void warn_of_absent(const ConvertOptions& options, const config::Settings& settings,
                     std::initializer_list<std::string_view> facts) {
@@ -52,14 +46,13 @@ void warn_of_absent(const ConvertOptions& options, const config::Settings& setti
 // Every row, into any copy of it; how many there were.
 template <class Row, class Reader, class Write>
 std::int64_t copy_rows(Reader& log, const Write& write) {
-    const Interruptible interruptible;
     Progress progress;
     Row row;
     std::int64_t rows = 0;
     while (log.next(row)) {
         write(row);
         if (++rows % 100'000 == 0) {
-            interruptible.check();
+            check_interrupt();
             progress.show(log.fraction_read());
         }
     }

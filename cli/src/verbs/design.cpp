@@ -23,7 +23,6 @@ namespace {
 using nlohmann::json;
 
 struct DesignOptions : Options {
-    std::optional<std::string> run_lengths;
     std::string require;
     std::string rules;
 };
@@ -77,14 +76,6 @@ json result_json(const study::DesignResult& result) {
 
 void design_gyro(const DesignOptions& options) {
     config::Config config = load_config(options);
-    if (options.run_lengths) {
-        // Only what a list of numbers is made of: nothing else may reach the configuration by this way.
-        if (options.run_lengths->find_first_not_of("0123456789.,eE+- ") != std::string::npos)
-            throw UsageError{fmt::format("--run-lengths {}: allowed are numbers of seconds, separated by commas",
-                                         *options.run_lengths)};
-        config::apply_pair(config, "design.run_lengths_s", "[" + *options.run_lengths + "]", "--run-lengths");
-        config::check(config);
-    }
     // The interval is what is asked for here.
     config.switching.interval_optimal = false;
     config = resolve(config).config;
@@ -104,10 +95,8 @@ void check_required(const DesignOptions& options) {
     if (!options.rules.empty() && options.require.empty())
         throw UsageError{"--rules paper: is for --require REQUIRE.toml"};
     if (options.require.empty()) return;
-    if (!options.config_path.empty() || options.run_lengths)
-        throw UsageError{
-            "--require: the requirement holds the gyro and the length of its run; leave out CONFIG and "
-            "--run-lengths"};
+    if (!options.config_path.empty())
+        throw UsageError{"--require: the requirement holds the gyro and the length of its run; leave out CONFIG"};
     if (options.out.empty()) return;
     if (!options.out.ends_with(".html") && !options.out.ends_with(".toml"))
         throw UsageError{
@@ -121,13 +110,12 @@ void check_required(const DesignOptions& options) {
 
 choice::Answer chosen(const DesignOptions& options, const choice::Requirement& requirement) {
     if (!options.rules.empty()) return choice::by_paper_rules(requirement);
-    const Interruptible interruptible;
-    interruptible.will_finish();
+    will_finish();
     Progress progress;
     return choice::choose({.requirement = requirement,
                            .threads = options.threads,
                            .on_progress = [&](double fraction) { progress.show(fraction); },
-                           .is_stopped = [&] { return interruptible.is_noted(); }});
+                           .is_stopped = [&] { return is_interrupted(); }});
 }
 
 void design_required(const DesignOptions& options) {
@@ -160,7 +148,6 @@ void add_design(CLI::App& program) {
     const auto options = std::make_shared<DesignOptions>();
     CLI::App* verb = program.add_subcommand("design", "drift budget, best interval, substitution errors, loop margins");
     add_config_argument(*verb, *options);
-    verb->add_option("--run-lengths", options->run_lengths, "lengths of run, with commas between");
     verb->add_option("--require", options->require,
                      "what the gyro must keep, TOML: the simplest choice that does, proved on many gyros")
         ->check(is_a_name());

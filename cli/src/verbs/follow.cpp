@@ -18,25 +18,21 @@
 namespace zlg::cli {
 namespace {
 
-struct FollowOptions {
+struct FollowOptions : Options {
     std::string source;
-    std::string out;
     int baud = logs::default_baud;
-    std::optional<double> duration_s;
-    bool force = false;
-    bool json = false;
+    std::optional<double> at_most_s;
 };
 
 // Until the source ends, a signal comes, or the log or the time is as long as was asked for.
-void receive(logs::Follower& follower, AngleRecording& recording, const std::optional<double>& duration_s,
-             const Interruptible& interruptible) {
+void receive(logs::Follower& follower, AngleRecording& recording, const std::optional<double>& duration_s) {
     using Clock = std::chrono::steady_clock;
     constexpr std::int64_t stride_rows = 1024;  // between two looks at the clock
     const auto started = Clock::now();
     const logs::Settings settings = logs::line_settings();
     core::AngleRow row;
     while (true) {
-        if (interruptible.is_noted()) follower.stop();
+        if (is_interrupted()) follower.stop();
         const logs::Follower::Next next = follower.next(row);
         if (next == logs::Follower::Next::end) return;
         if (next == logs::Follower::Next::row) recording.write(row, *follower.rows().tick_s(), settings);
@@ -80,11 +76,10 @@ nlohmann::json follow_json(const logs::Follower& follower, const FollowOptions& 
 void follow(const FollowOptions& options) {
     AngleRecording recording{options.source, options.out, options.force};
     refuse_own_input(options.source, options.out);
-    logs::Follower follower{options.source, options.baud, options.duration_s};
-    const Interruptible interruptible;
-    interruptible.will_finish();
+    logs::Follower follower{options.source, options.baud, options.at_most_s};
+    will_finish();
     try {
-        receive(follower, recording, options.duration_s, interruptible);
+        receive(follower, recording, options.at_most_s);
         recording.close();
     } catch (...) {
         rethrow_with({recording.part_path()});
@@ -100,12 +95,10 @@ void add_follow(CLI::App& program) {
     verb->add_option("SOURCE", options->source,
                      "a file, a serial device, - for standard input, tcp:HOST:PORT or unix:PATH")
         ->required();
-    verb->add_option("--out", options->out, "angle log to write: .csv, .h5 or .hdf5")->check(is_a_name());
     verb->add_option("--baud", options->baud, "speed of a serial device (921600)");
-    verb->add_option("--duration", options->duration_s,
+    verb->add_option("--duration", options->at_most_s,
                      "end after so long, of the log or of the clock, whichever comes first");
-    verb->add_flag("--force", options->force, "overwrite what is there");
-    verb->add_flag("--json", options->json, "the result as one JSON object on standard output");
+    add_output_options(*verb, *options);
     verb->callback([options] { follow(*options); });
 }
 

@@ -77,13 +77,12 @@ std::size_t write_raw(const ImportOptions& options, const logs::ForeignLook& loo
     warnings = made.warnings;
     note_all(options.file(), warnings);
     require_readable(options, made.header.settings);
-    const Interruptible interruptible;
     // Read once through the rules of a raw log, which name what is wrong.
     logs::RawReader rows{options.file(), made.header, made.rows};
     logs::RawWriter log{options.out, made.header.settings, options.force, made.header, {}};
     core::HalfRecord row;
     while (rows.next(row)) {
-        if (row.half % 100'000 == 0) interruptible.check();
+        if (row.half % 100'000 == 0) check_interrupt();
         log.write(row);
     }
     log.close();
@@ -107,10 +106,9 @@ std::size_t write_angles(const ImportOptions& options, const logs::ForeignLook& 
     const double tick_s = 1.0 / axis.rate_hz;
     const config::Settings settings{{"gyro.tick_s", fmt::format("{}", tick_s)}};
     require_readable(options, settings);
-    const Interruptible interruptible;
     logs::AngleWriter log{options.out, tick_s, settings, options.force, {}};
     const std::int64_t n = logs::angle_rows(axis, [&](const core::AngleRow& row) {
-        if (row.tick % 100'000 == 0) interruptible.check();
+        if (row.tick % 100'000 == 0) check_interrupt();
         log.write(row);
     });
     log.close();

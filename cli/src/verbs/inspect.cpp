@@ -109,9 +109,7 @@ std::string repaired_path(const InspectOptions& options) {
 
 // A fact that the log gives; null where it does not.
 json fact(const config::Settings& settings, std::string_view name, double value) {
-    for (const auto& [key, text] : settings)
-        if (key == name || key == fmt::format("gyro.{}", name)) return value;
-    return nullptr;
+    return says(settings, name) ? json(value) : json(nullptr);
 }
 
 // Of the run whose log it is; null where the log does not say it.

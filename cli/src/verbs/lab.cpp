@@ -97,9 +97,9 @@ public:
     }
 
     // Until the source ends or a signal comes; the log is then complete.
-    void receive(const Interruptible& interruptible) {
+    void receive() {
         try {
-            while (take(interruptible))
+            while (take())
                 if (recording_) recording_->flush_now_and_then();
             if (recording_) recording_->close();
         } catch (...) {
@@ -110,8 +110,8 @@ public:
     [[nodiscard]] std::int64_t n_rows() const { return n_rows_; }
 
 private:
-    bool take(const Interruptible& interruptible) {
-        if (interruptible.is_noted()) source_.stop();
+    bool take() {
+        if (is_interrupted()) source_.stop();
         live::Record record;
         const RecordSource::Next next = source_.next(record);
         if (next == RecordSource::Next::end) return false;
@@ -145,17 +145,16 @@ void follow_in_page(const LabFollowOptions& options) {
     const std::unique_ptr<RecordSource> source = opened(options);
     live::RecordBook book{options.source == "-" ? "standard input" : options.source, source->tells_health()};
     Receiver receiver{options, *source, book};
-    const Interruptible interruptible;
-    interruptible.will_finish();
+    will_finish();
     const live::PageServer server{std::move(page), book, options.port};
     announce(server.port());
-    receiver.receive(interruptible);
-    if (receiver.n_rows() == 0 && !interruptible.is_noted())
+    receiver.receive();
+    if (receiver.n_rows() == 0 && !is_interrupted())
         throw logs::IoError{fmt::format("{}: has ended without a tick of a gyro in it", printable(options.source))};
     for (const std::string& warning : source->warnings()) complain("warning: " + warning);
     book.end();
     // What has come is still there to be looked at.
-    while (!interruptible.is_noted()) std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds{50});
     if (!options.out.empty()) print(fmt::format("{}: {} ticks\n", printable(options.out), receiver.n_rows()));
 }
 

@@ -99,11 +99,11 @@ struct Summary {
 constexpr std::int64_t stride_halves = 100'000;
 
 // Waits for rows that are still being written; false where the log is complete, or nothing came for too long.
-bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options, const Interruptible& interruptible) {
+bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options) {
     using Clock = std::chrono::steady_clock;
     const auto until = Clock::now() + std::chrono::duration<double>{options.give_up_s};
     while (!raw.refresh()) {
-        interruptible.check();
+        check_interrupt();
         if (raw.header().complete) return false;
         if (Clock::now() > until) {
             complain(fmt::format("warning: {}: nothing was added for {} s; its writer may have been interrupted",
@@ -117,14 +117,14 @@ bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options, const In
 
 // The next row of a log that grows. What is known by now is shown to those who follow the angles.
 bool follow(logs::RawReader& raw, core::HalfRecord& record, logs::AngleWriter& angles, const ProcessOptions& options,
-            Progress& progress, const Interruptible& interruptible) {
+            Progress& progress) {
     angles.flush();
     progress.show(raw.fraction_read());
-    return wait_for_rows(raw, options, interruptible) && raw.next(record);
+    return wait_for_rows(raw, options) && raw.next(record);
 }
 
 Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter& angles, Switches& switches,
-                   const ProcessOptions& options, const Interruptible& interruptible) {
+                   const ProcessOptions& options) {
     Summary summary;
     core::HalfRecord record;
     Progress progress;
@@ -135,11 +135,11 @@ Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter&
         angles.write(row);
     };
     const auto note = [&](const core::GapReport& gap) { switches.take(gap); };
-    while (raw.next(record) || (options.follow && follow(raw, record, angles, options, progress, interruptible))) {
+    while (raw.next(record) || (options.follow && follow(raw, record, angles, options, progress))) {
         switches.take(record);
         replay.take(record, has_light ? raw.light() : core::LightSamples{}, write, note);
         if (replay.halves() % stride_halves != 0) continue;
-        interruptible.check();
+        check_interrupt();
         progress.show(raw.fraction_read());
     }
     replay.end(write, note);
@@ -187,10 +187,9 @@ void process(const ProcessOptions& options) {
     for (const std::string& warning : raw.header().warnings) complain("warning: " + warning);
 
     rig::Replay replay{asked.compensation};
-    const Interruptible interruptible;
     Switches switches{options, asked.config};
     logs::AngleWriter angles{options.out, asked.config.gyro.tick_s, rig::angle_settings(asked.config), options.force};
-    const Summary summary = compensate(raw, replay, angles, switches, options, interruptible);
+    const Summary summary = compensate(raw, replay, angles, switches, options);
     recorded::require_a_tick(replay, options.raw);
     if (const std::string odd = replay.odd_half(options.raw); !odd.empty()) complain("warning: " + odd);
     if (asked.lacks_detuning) warn_uncorrected(replay, options.raw);

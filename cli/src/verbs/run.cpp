@@ -99,15 +99,14 @@ KeptLogs kept_logs(const RunOptions& options) {
     return kept;
 }
 
-study::RunResult run_into(RunFiles& files, const study::Resolved& resolved, const RunOptions& options,
-                          const Interruptible& interruptible) {
+study::RunResult run_into(RunFiles& files, const study::Resolved& resolved, const RunOptions& options) {
     Progress progress;
     study::RunTask task{.config = resolved.config,
                         .warnings = resolved.warnings,
                         .threads = options.threads,
                         .on_record =
                             [&](const core::HalfRecord& record, const core::LightSamples& light) {
-                                interruptible.check();
+                                check_interrupt();
                                 if (logs::RawWriter* raw = files.raw())
                                     raw->write(record, options.light ? light : core::LightSamples{});
                             },
@@ -121,10 +120,8 @@ study::RunResult run_into(RunFiles& files, const study::Resolved& resolved, cons
 
 // What the logs take of the disk.
 double bytes_a_tick(const RunOptions& options, logs::LogFormat format, int light_samples) {
-    constexpr double light_bytes = 2.0 * 2.0 * sizeof(float);  // of a sample in both halves, of both beams
     const KeptLogs kept = kept_logs(options);
-    const double raw = format == logs::LogFormat::csv ? raw_csv_bytes : raw_hdf5_bytes;
-    return (kept == KeptLogs::all ? raw + light_bytes * light_samples : 0.0) +
+    return (kept == KeptLogs::all ? raw_bytes(format == logs::LogFormat::csv, light_samples) : 0.0) +
            (kept == KeptLogs::none ? 0.0 : angles_bytes);
 }
 
@@ -164,7 +161,6 @@ void run(const RunOptions& options) {
     if (config.motion.kind != config::MotionKind::file)
         require_room(rig::run_ticks(config, twin::Motion::rest()), bytes_a_tick(options, format, light_samples),
                      options.out);
-    const Interruptible interruptible;
     std::string raw_part;
     std::string angles_part;
     rig::SwitchTally tally;
@@ -173,7 +169,7 @@ void run(const RunOptions& options) {
         if (!lab.empty()) files.add_lab(lab, options.force);
         raw_part = files.raw_part();
         angles_part = files.angles_part();
-        const study::RunResult result = run_into(files, resolved, options, interruptible);
+        const study::RunResult result = run_into(files, resolved, options);
         for (const std::string& warning : std::span{result.warnings}.subspan(resolved.warnings.size()))
             complain("warning: " + warning);
         const std::string summary = pretty(summary_json(config, result));

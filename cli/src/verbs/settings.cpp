@@ -13,7 +13,6 @@
 #include <zlg/logs/follower.hpp>
 #include <zlg/rig/processor.hpp>
 #include <zlg/text/whole_file.hpp>
-#include <zlg/wire/parameters.hpp>
 
 #include "src/as_json.hpp"
 #include "src/failure.hpp"
@@ -34,7 +33,7 @@ struct SettingsOptions : Options {
 nlohmann::json facts(const firmware::Settings& settings) {
     return {{"version", fmt::format("{:016x}", firmware::layout())},
             {"bytes", firmware::stored_bytes},
-            {"parameters_crc", fmt::format("{:08x}", wire::settings_crc(settings))},
+            {"settings_crc", fmt::format("{:08x}", firmware::settings_crc(settings))},
             {"tick_s", settings.compensation.gyro.tick.value()}};
 }
 
@@ -42,43 +41,32 @@ void say(const SettingsOptions& options, nlohmann::json facts, const std::string
     if (options.json) return print(pretty(facts));
     print(fmt::format(
         "{}\n{} bytes for the image of version {}, ticks of {} s; the gyro's status then says {} as CRC of its "
-        "parameters\n",
+        "settings\n",
         done, facts["bytes"].get<std::size_t>(), facts["version"].get<std::string>(), facts["tick_s"].get<double>(),
-        facts["parameters_crc"].get<std::string>()));
+        facts["settings_crc"].get<std::string>()));
 }
 
 void make(const SettingsOptions& options) {
     require_suffix(options.out, ".bin");
     refuse_own_input(options.config_path, options.out);
     const rig::ProcessorSettings made = rig::processor_settings(resolve(load_config(options)).config);
-    const firmware::Settings settings{made.control, made.compensation};
     alignas(firmware::Settings) std::array<std::uint8_t, firmware::stored_bytes> bytes{};
-    firmware::put_stored(settings, bytes);
+    firmware::put_stored({made.control, made.compensation}, bytes);
     write_file(options.out, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, options.force);
-    nlohmann::json said = facts(settings);
+    nlohmann::json said = facts(firmware::settings_in(bytes));
     said["out"] = options.out;
     say(options, said, fmt::format("{}: what the gyro's processor stores", printable(options.out)));
 }
 
 // What is wrong with the file; empty where nothing is.
 std::string objection(std::span<const std::uint8_t> bytes) {
-    using enum firmware::StoredFault;
-    switch (firmware::fault_of(bytes)) {
-        case none:
-            break;
-        case other_kind:
-            return "holds no settings; allowed is what `zlg settings --out` has written";
-        case damaged:
-            return fmt::format("{} bytes, whose checksum is wrong: it is cut or has changed; make it anew",
-                               bytes.size());
-        case other_program:
-            return fmt::format(
-                "is for the image of version {:016x}; allowed is {:016x}: make it anew with this program",
-                firmware::layout_in(bytes), firmware::layout());
-        case refused:
-            return "the core refuses these settings; make them anew";
-    }
-    return {};
+    const std::string by_fault[]{
+        "", "holds no settings; allowed is what `zlg settings --out` has written",
+        fmt::format("{} bytes, whose checksum is wrong: it is cut or has changed; make it anew", bytes.size()),
+        fmt::format("is for the image of version {:016x}; allowed is {:016x}: make it anew with this program",
+                    firmware::layout_in(bytes), firmware::layout()),
+        "the core refuses these settings; make them anew"};
+    return by_fault[static_cast<std::size_t>(firmware::fault_of(bytes))];
 }
 
 std::vector<std::uint8_t> read_settings(const std::string& path) {

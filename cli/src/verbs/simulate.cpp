@@ -66,11 +66,11 @@ private:
 };
 
 void record(rig::ClosedLoop& loop, std::int64_t ticks, bool with_light, logs::RawWriter& raw, LineRecording& line,
-            rig::SwitchCount& count, const Interruptible& interruptible) {
+            rig::SwitchCount& count) {
     Progress progress;
     const std::int64_t progress_stride = std::clamp<std::int64_t>(ticks / 200, 1, 100'000);
     for (std::int64_t half = 0; half < 2 * ticks; ++half) {
-        interruptible.check();
+        check_interrupt();
         const rig::LoopHalf made = loop.advance();
         raw.write(made.record, with_light ? loop.light() : core::LightSamples{});
         line.take(loop, made);
@@ -90,12 +90,9 @@ void simulate(const SimulateOptions& options) {
     const std::int64_t ticks = rig::run_ticks(config, motion);
     rig::ClosedLoop loop{config, motion};
     rig::SwitchCount count{config};
-    constexpr double light_bytes = 2.0 * 2.0 * sizeof(float);  // of a sample in both halves, of both beams
     require_room(ticks,
-                 (format == logs::LogFormat::csv ? raw_csv_bytes : raw_hdf5_bytes) +
-                     (options.wire.empty() ? 0.0 : wire_bytes) + light_bytes * light_samples,
+                 raw_bytes(format == logs::LogFormat::csv, light_samples) + (options.wire.empty() ? 0.0 : wire_bytes),
                  options.out);
-    const Interruptible interruptible;
     std::string part;
     try {
         logs::RawWriter raw{options.out,
@@ -105,7 +102,7 @@ void simulate(const SimulateOptions& options) {
                             {.light_samples = light_samples, .light_b = light_samples > 0, .keep_part = true}};
         part = raw.part_path();
         LineRecording line{options, config};
-        record(loop, ticks, light_samples > 0, raw, line, count, interruptible);
+        record(loop, ticks, light_samples > 0, raw, line, count);
         const logs::Together both_or_neither;
         line.close();
         raw.close();

@@ -74,15 +74,11 @@ nlohmann::json sweep_json(const sweep::Gyros& gyros, const sweep::Rows& rows) {
             {"worst", std::move(shown)}};
 }
 
-struct SweepOptions {
+struct SweepOptions : Options {
     std::string description;
     std::vector<std::string> merged;
     std::string part;
-    std::string out;
     std::string page;
-    int threads = 2;
-    bool force = false;
-    bool json = false;
 };
 
 constexpr std::int64_t max_parts = 1'000'000;
@@ -149,7 +145,6 @@ void merge(const SweepOptions& options) {
 }
 
 void sweep_gyros(const SweepOptions& options, const sweep::Crew& crew) {
-    const Interruptible interruptible;
     Progress progress;
     sweep::Task task{.description = sweep::read_description(options.description),
                      .out = options.out,
@@ -157,9 +152,9 @@ void sweep_gyros(const SweepOptions& options, const sweep::Crew& crew) {
                      .crew = crew,
                      .force = options.force};
     if (!options.part.empty()) task.part = part_of(options.part);
-    task.is_stopped = [&] { return interruptible.is_noted(); };
+    task.is_stopped = [&] { return is_interrupted(); };
     task.on_progress = [&](std::int64_t done, std::int64_t asked) {
-        progress.show(static_cast<double>(done) / static_cast<double>(asked), static_cast<double>(asked), "gyros");
+        progress.show(static_cast<double>(done) / static_cast<double>(asked));
     };
     const sweep::Outcome outcome = sweep::run(task);
     if (outcome.is_stopped)
@@ -176,13 +171,11 @@ void add_sweep(CLI::App& program, const sweep::Crew& crew) {
     CLI::App* verb = program.add_subcommand(
         "sweep", "many gyros of drawn parameters, whose results can be interrupted, continued, parted and merged");
     verb->add_option("SWEEP", options->description, "what is drawn and recorded, TOML");
-    verb->add_option("--out", options->out, "the file of results, .h5; FILE.part while it grows")->check(is_a_name());
     verb->add_option("--page", options->page, "a page of the results, FILE.html");
     verb->add_option("--part", options->part, "only the k-th of n parts of the gyros");
     verb->add_option("--merge", options->merged, "put files of results together");
     if (!crew) verb->add_option("--threads", options->threads, "1..256 (2)")->check(CLI::Range(1, 256).description(""));
-    verb->add_flag("--force", options->force, "overwrite what exists, and begin anew");
-    verb->add_flag("--json", options->json, "the result as one JSON object on standard output");
+    add_output_options(*verb, *options);
     verb->callback([options, crew] {
         check_options(*options);
         options->merged.empty() ? sweep_gyros(*options, crew) : merge(*options);

@@ -1,6 +1,5 @@
 #include "lock_step.hpp"
 
-#include <zlg/firmware/exchange.hpp>
 #include <zlg/firmware/half_period.hpp>
 #include <zlg/firmware/port.hpp>
 
@@ -9,9 +8,6 @@
 
 namespace zlg::firmware::mps2 {
 namespace {
-
-// Memory of the machine that a gyro's board has not: it serves nothing but this exchange.
-Exchange& exchange() noexcept { return *reinterpret_cast<Exchange*>(0x60000000); }
 
 // Longer than the host needs for a half-period of the averaged twin: some ten microseconds.
 constexpr int n_looks = 2'000;
@@ -67,11 +63,7 @@ void answer(Exchange& x) noexcept {
 
 bool is_in_lock_step() noexcept { return exchange().magic == lock_step_magic; }
 
-bool host_listens() noexcept { return exchange().has_line != 0; }
-
-const core::SensorFrame& host_frame() noexcept { return exchange().sensor; }
-
-Pulse host_pulse() noexcept { return exchange().pulse; }
+Exchange& exchange() noexcept { return *reinterpret_cast<Exchange*>(0x60000000); }
 
 void present_to_host() noexcept {
     Exchange& x = exchange();
@@ -87,7 +79,7 @@ void present_to_host() noexcept {
 void wait_for_host() noexcept {
     Exchange& x = exchange();
     // What waits for room on the line has no interrupt to wake it.
-    if (x.has_bell == 0 || host_listens()) return;
+    if (x.has_bell == 0 || x.has_line != 0) return;
     for (int k = 0; k < n_looks; ++k)
         if (is_asked(x)) return;
     // With interrupts held back none comes between the last look and the sleep; one that waits ends it.

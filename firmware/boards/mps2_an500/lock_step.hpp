@@ -1,20 +1,15 @@
 #pragma once
 // The processor driven by a host, half-period by half-period, through memory that both see.
 
-#include <zlg/core/records.hpp>
-#include <zlg/firmware/pulse.hpp>
+#include <zlg/firmware/exchange.hpp>
 
 namespace zlg::firmware::mps2 {
 
 // True where a host has asked for it before the processor started.
 [[nodiscard]] bool is_in_lock_step() noexcept;
 
-// The host has given the image a serial line.
-[[nodiscard]] bool host_listens() noexcept;
-
-// The frame and the pulse that the host gave, in lock step.
-[[nodiscard]] const core::SensorFrame& host_frame() noexcept;
-[[nodiscard]] Pulse host_pulse() noexcept;
+// Memory of the machine that a gyro's board has not: it serves nothing but this exchange.
+[[nodiscard]] Exchange& exchange() noexcept;
 
 // Say what this processor was compiled from; the host waits for it.
 void present_to_host() noexcept;

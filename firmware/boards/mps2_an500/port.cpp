@@ -47,13 +47,13 @@ void start_half_periods(std::uint64_t half_ticks) noexcept {
     start_watchdog();
 }
 
-const core::SensorFrame& latched() noexcept { return is_in_lock_step() ? host_frame() : no_frame; }
+const core::SensorFrame& latched() noexcept { return is_in_lock_step() ? exchange().sensor : no_frame; }
 
-Pulse last_pulse() noexcept { return is_in_lock_step() ? host_pulse() : Pulse{}; }
+Pulse last_pulse() noexcept { return is_in_lock_step() ? exchange().pulse : Pulse{}; }
 
 void command(const core::ActuatorFrame&) noexcept {}
 
-bool has_line() noexcept { return !is_in_lock_step() || host_listens(); }
+bool has_line() noexcept { return !is_in_lock_step() || exchange().has_line != 0; }
 
 void restart() noexcept { system_reset(); }
 

@@ -1,5 +1,7 @@
 #include <zlg/core/control/switch_schedule.hpp>
 
+#include <algorithm>
+
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
@@ -24,10 +26,8 @@ void count_mode(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int8
 }
 
 bool is_due_on_grid(const SwitchScheduleConfig& c, SwitchScheduleState& s, std::int64_t tick) noexcept {
-    if (s.next_tick - tick > c.interval_ticks) s.next_tick = tick + c.interval_ticks;
     if (tick < s.next_tick) return false;
     s.next_tick += c.interval_ticks;
-    if (s.next_tick <= tick) s.next_tick = tick + c.interval_ticks;
     return true;
 }
 
@@ -74,10 +74,7 @@ std::int64_t varied(std::int64_t interval_ticks, std::uint32_t n_openings) noexc
 
 // What a few switches have measured may be far off: the interval follows it step by step.
 std::int64_t within_factor_2(std::int64_t before_ticks, std::int64_t wanted_ticks) noexcept {
-    const std::int64_t least = before_ticks - before_ticks / 2;
-    const std::int64_t most = 2 * before_ticks;
-    if (wanted_ticks < least) return least;
-    return wanted_ticks < most ? wanted_ticks : most;
+    return std::clamp(wanted_ticks, before_ticks - before_ticks / 2, 2 * before_ticks);
 }
 
 void note_opening(const SwitchScheduleConfig& c, SwitchScheduleState& s, const SwitchScheduleInput& in) noexcept {

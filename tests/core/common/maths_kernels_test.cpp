@@ -11,14 +11,28 @@ constexpr int n_random = 100'000;
 
 double any_normal(Random& random) { return std::ldexp(random.uniform(1.0, 2.0), random.index(-1022, 1023)); }
 
-TEST(MathsKernels, SincosOfTurnsIsThePublicOneWithinItsRange) {
+TEST(MathsKernels, SincosOfTurnsIsThatOfRadians) {
     Random random{2};
     for (int k = 0; k < n_random; ++k) {
         const double t = std::ldexp(random.uniform(-1.0, 1.0), random.index(-300, 48));
         const auto [sin, cos] = sincos_turns_kernel(t);
-        EXPECT_EQ(sin, sin_turns(t)) << t;
-        EXPECT_EQ(cos, cos_turns(t)) << t;
+        const double rest = std::remainder(t, 1.0);
+        EXPECT_NEAR(sin, maths::sin(2.0 * M_PI * rest), 1e-15 * std::min(1.0, 7.0 * std::abs(rest))) << t;
+        EXPECT_NEAR(cos, maths::cos(2.0 * M_PI * rest), 1e-15) << t;
     }
+}
+
+TEST(MathsKernels, SincosOfWholeQuartersIsExact) {
+    const double expected[][2] = {{0.0, 1.0}, {1.0, 0.0}, {0.0, -1.0}, {-1.0, 0.0}};
+    for (const double whole : {0.0, 1.0, 123456789.0, 0x1p45})
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            const double t = whole + 0.25 * quarter;
+            const auto& [sin, cos] = expected[quarter];
+            EXPECT_EQ(sincos_turns_kernel(t).sin, sin) << t;
+            EXPECT_EQ(sincos_turns_kernel(t).cos, cos) << t;
+            EXPECT_EQ(sincos_turns_kernel(-t).sin, -sin) << t;
+            EXPECT_EQ(sincos_turns_kernel(-t).cos, cos) << t;
+        }
 }
 
 TEST(MathsKernels, ASumIsExact) {

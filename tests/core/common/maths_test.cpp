@@ -66,40 +66,12 @@ TEST(Maths, SpecialValuesAreThoseOfC) {
     expect_as_c_of_two(ZLG_OURS_AND_THEIRS(hypot));
 }
 
-TEST(Maths, SineAndCosineOfTurnsAreExactAtQuarters) {
-    constexpr double expected[4][2] = {{0.0, 1.0}, {1.0, 0.0}, {0.0, -1.0}, {-1.0, 0.0}};
-    for (const double whole : {0.0, 1.0, 7.0, 0x1p31 - 1.0, 0x1p49, 0x1p50 - 1.0}) {
-        for (int quarter = 0; quarter < 4; ++quarter) {
-            const double t = whole + 0.25 * quarter;
-            const auto& [sin, cos] = expected[quarter];
-            expect_as_c(maths::sin_turns(t), sin, t, 0.0);
-            expect_as_c(maths::cos_turns(t), cos, t, 0.0);
-            expect_as_c(maths::sin_turns(-t), -sin, -t, 0.0);
-            expect_as_c(maths::cos_turns(-t), cos, -t, 0.0);
-        }
-    }
-}
-
-TEST(Maths, AnyNumberFromTwoToThe53IsAWholeNumberOfTurns) {
-    for (const double t : {0x1p53, 0x1.fffffffffffffp+60, 1e300, largest}) {
-        expect_as_c(maths::sin_turns(t), 0.0, t, 0.0);
-        expect_as_c(maths::sin_turns(-t), -0.0, -t, 0.0);
-        EXPECT_EQ(maths::cos_turns(t), 1.0) << t;
-    }
-    for (const double t : {infinite, -infinite, not_a_number}) {
-        EXPECT_TRUE(std::isnan(maths::sin_turns(t))) << t;
-        EXPECT_TRUE(std::isnan(maths::cos_turns(t))) << t;
-    }
-}
-
 TEST(Maths, SincosIsSineAndCosine) {
     Random random{2};
     for (int k = 0; k < 10'000; ++k) {
         const double x = random.uniform(-1e5, 1e5);
         EXPECT_EQ(maths::sincos(x).sin, maths::sin(x)) << x;
         EXPECT_EQ(maths::sincos(x).cos, maths::cos(x)) << x;
-        EXPECT_EQ(maths::sincos_turns(x).sin, maths::sin_turns(x)) << x;
-        EXPECT_EQ(maths::sincos_turns(x).cos, maths::cos_turns(x)) << x;
     }
 }
 

@@ -47,13 +47,6 @@ TEST(SwitchSchedule, AnOpeningThatHadToWaitDoesNotMoveTheGridAndSeveralThatWaitA
     EXPECT_EQ(openings({.interval_ticks = 10}, 51, 18, 43), (Ticks{10, 43, 50}));
 }
 
-TEST(SwitchSchedule, AJumpOverIntervalsOpensOnceAndLaysTheGridAnewOneWithinAnIntervalDoesNot) {
-    const SwitchScheduleConfig c{.interval_ticks = 10};
-    SwitchScheduleState over = initial_state(c), within = over;
-    EXPECT_EQ(openings(c, over, 1003, 1014), (Ticks{1003, 1013}));
-    EXPECT_EQ(openings(c, within, 13, 21), (Ticks{13, 20}));
-}
-
 TEST(SwitchSchedule, AnyTickNumberIsSurvived) {
     for (const std::int64_t interval : {std::int64_t{1}, std::int64_t{1} << 53}) {
         const SwitchScheduleConfig c{.interval_ticks = interval};
@@ -285,14 +278,6 @@ TEST(SwitchSchedule, AskedItOpensOnceWhenReadyHeldOrNotAndDoesNotMoveTheGrid) {
         EXPECT_EQ(s.opened_tick, 2);
         EXPECT_EQ(openings(c, s, 4, 11), held ? Ticks{} : Ticks{10});
     }
-}
-
-TEST(SwitchSchedule, AnIntervalThatIsMadeShorterCountsFromNow) {
-    SwitchScheduleConfig c{.interval_ticks = std::int64_t{1} << 40};
-    SwitchScheduleState s = initial_state(c);
-    EXPECT_EQ(openings(c, s, 1, 100), Ticks{});
-    c.interval_ticks = 10;
-    EXPECT_EQ(openings(c, s, 100, 112), Ticks{110});
 }
 
 }  // namespace zlg::core::switch_schedule_test

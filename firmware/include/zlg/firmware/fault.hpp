@@ -10,24 +10,29 @@
 
 namespace zlg::firmware {
 
-// The numbers go out in the status message: they never change their meaning.
-enum class FaultKind : std::uint32_t {
-    none = 0,                   // power
-    undefined_instruction = 1,  // no such instruction, or none of this processor
-    no_coprocessor = 2,         // of a unit that is absent or switched off
-    unaligned = 3,              // access that must be aligned and is not
-    divide_by_zero = 4,         // of integers
-    bad_branch = 5,             // to what is no code, or a return to what was no exception
-    bus_error = 6,              // nobody answers at this address
-    forbidden_address = 7,      // outside of what the program may read, write or run
-    stack_overflow = 8,
-    hard_fault = 9,             // none of those above
-    unexpected_interrupt = 10,  // detail: number of the exception
-    assertion = 11,             // detail: that of the caller
-    half_period_hung = 12,      // the watchdog: no half-period has ended
-    background_hung = 13,       // the watchdog: halves go on, the background does not
-    reset = 14,                 // without a reason noted: from outside, or by the watchdog when nothing ran any more
-};
+// By their numbers from 0 on, which go out in the status message and never change their meaning.
+// clang-format off
+#define ZLG_FAULT_KINDS(KIND)                                                                            \
+    KIND(none) /* power */                                                                               \
+    KIND(undefined_instruction) /* no such instruction, or none of this processor */                     \
+    KIND(no_coprocessor) /* of a unit that is absent or switched off */                                  \
+    KIND(unaligned) /* access that must be aligned and is not */                                         \
+    KIND(divide_by_zero) /* of integers */                                                               \
+    KIND(bad_branch) /* to what is no code, or a return to what was no exception */                      \
+    KIND(bus_error) /* nobody answers at this address */                                                 \
+    KIND(forbidden_address) /* outside of what the program may read, write or run */                     \
+    KIND(stack_overflow)                                                                                 \
+    KIND(hard_fault) /* none of those above */                                                           \
+    KIND(unexpected_interrupt) /* detail: number of the exception */                                     \
+    KIND(assertion) /* detail: that of the caller */                                                     \
+    KIND(half_period_hung) /* the watchdog: no half-period has ended */                                  \
+    KIND(background_hung) /* the watchdog: halves go on, the background does not */                      \
+    KIND(reset) /* without a reason noted: from outside, or by the watchdog when nothing ran any more */
+
+// clang-format on
+#define ZLG_ENUMERATOR(name) name,
+enum class FaultKind : std::uint32_t { ZLG_FAULT_KINDS(ZLG_ENUMERATOR) };
+#undef ZLG_ENUMERATOR
 
 struct FaultRecord {
     FaultKind kind = FaultKind::none;

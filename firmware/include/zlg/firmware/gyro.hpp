@@ -8,12 +8,14 @@
 #include <zlg/core/gyro_compensation.hpp>
 #include <zlg/core/gyro_control.hpp>
 #include <zlg/core/records.hpp>
-#include <zlg/wire/parameters.hpp>
 
 namespace zlg::firmware {
 
-// Of control and of compensation.
-using Settings = wire::GyroSettings;
+// What the gyro runs by.
+struct Settings {
+    core::GyroControlConfig control{};
+    core::GyroCompensationConfig compensation{};
+};
 
 // Which part refuses its configuration, and what its check says.
 struct SettingsFault {
@@ -60,11 +62,6 @@ public:
 
     // The angle that is still due when no more halves come, one report at each call, until there is none.
     [[nodiscard]] core::DrainOutput drain() noexcept;
-
-    // Go on with other settings, which have passed `check`: at the border of a tick, which is where `is_within_tick` is
-    // false.
-    void change(const Settings& settings) noexcept { settings_ = settings; }
-    [[nodiscard]] bool is_within_tick() const noexcept { return state_.compensation.has_first; }
 
     // The reading at the start was not known: the next half, the first one, is not counted.
     void forget_counter() noexcept {

@@ -19,15 +19,8 @@ namespace zlg::firmware {
 core::ActuatorFrame start_gyro(const Settings& settings, std::optional<std::uint64_t> counter = {}) noexcept;
 
 // Called by the background (background.hpp); each masks the interrupt while it works.
-//
-// try_change_settings  go on with other settings, which have passed `check`; false, and nothing is done, in the middle
-// of a
-//                      tick.
-[[nodiscard]] bool try_change_settings(const Settings& settings) noexcept;
-void hold_switching(bool held) noexcept;
-void force_switch() noexcept;                // once, as soon as the gyro is ready for it
 [[nodiscard]] bool is_switching() noexcept;  // from the opening of the loop to the lock, or until the mode is searched
-[[nodiscard]] wire::Status status_of_gyro(const core::GyroCompensationConfig& config) noexcept;
+[[nodiscard]] wire::Status status_of_gyro() noexcept;
 
 // The outputs of the last half, for telemetry; consistent while the interrupt is masked.
 [[nodiscard]] const HalfOutput& last_half() noexcept;

@@ -21,6 +21,11 @@ inline constexpr std::size_t stored_bytes = stored_head_bytes + sizeof(Settings)
 // to  aligned as Settings.
 void put_stored(const Settings& settings, std::span<std::uint8_t, stored_bytes> to) noexcept;
 
+// CRC-32C over the settings alone: whether two gyros are set alike.
+//
+// settings  from `settings_in`, for what lies between the members counts as well.
+[[nodiscard]] std::uint32_t settings_crc(const Settings& settings) noexcept;
+
 enum class StoredFault : std::uint8_t {
     none,
     other_kind,     // no settings

@@ -1,4 +1,4 @@
-// Sine and cosine of radians and of turns.
+// Sine and cosine of radians.
 
 #include <bit>
 #include <cstdint>
@@ -35,20 +35,5 @@ SinCos sincos(double x) noexcept {
 
 double sin(double x) noexcept { return sincos(x).sin; }
 double cos(double x) noexcept { return sincos(x).cos; }
-
-// From 2^52 on every number is whole. Of the others multiples of 2^20 are taken off exactly. The sine of the least is
-// proportional to them, and is computed where nothing is subnormal.
-SinCos sincos_turns(double t) noexcept {
-    const double size = __builtin_fabs(t);
-    const double limited = size < 0x1p53 ? t : t - t;
-    const double rest = limited - 0x1p20 * ((limited * 0x1p-20 + to_whole) - to_whole);
-    const bool is_tiny = size < 0x1p-500;
-    const SinCos result = sincos_turns_kernel(is_tiny ? t * 0x1p300 : rest);
-    const double sin = is_tiny ? result.sin * 0x1p-300 : result.sin;
-    return {.sin = sin == 0.0 ? __builtin_copysign(0.0, t) : sin, .cos = result.cos == 0.0 ? 0.0 : result.cos};
-}
-
-double sin_turns(double t) noexcept { return sincos_turns(t).sin; }
-double cos_turns(double t) noexcept { return sincos_turns(t).cos; }
 
 }  // namespace zlg::core::maths

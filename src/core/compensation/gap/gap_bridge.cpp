@@ -195,7 +195,6 @@ bool resolve(const CompensationConstants& gyro, const GapBridgeConfig& config, G
               .mode_after = pending.mode_after,
               .mode_changed = pending.mode_after != gap.mode_before,
               .sigma_sum_arcsec = infinity};
-    if (!is_estimated(config) || gap.n > max_gap_ticks(config)) give_up(state, pending);
     if (config.method == BridgeMethod::none) return gap.has_before;
     ExactSum difference = gap.final_minus_delivered_arcsec;
     const bool is_short = gap.n <= max_gap_ticks(config);

@@ -356,23 +356,17 @@ void ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBr
     if (is_late) ++state.background.n_late;
 }
 
-void give_up(GapBridgeState& state, PendingGap& pending) noexcept {
-    if (pending.job < 0) return;
-    SwitchJob& job = state.background.job[static_cast<std::size_t>(pending.job)];
-    if (!hand_over_if(job.state, JobState::asked, JobState::late))
-        (void)hand_over_if(job.state, JobState::done, JobState::free);
-    pending.job = -1;
-}
-
 SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, PendingGap& pending, bool late) noexcept {
     SwitchAngle out;
     if (pending.job < 0) return out;
-    const SwitchJob& job = state.background.job[static_cast<std::size_t>(pending.job)];
+    SwitchJob& job = state.background.job[static_cast<std::size_t>(pending.job)];
     if (late || taken(job.state) != JobState::done)
         ++state.background.n_late;
     else if (job.found.known)
         set_rows(gyro, state, pending.gap, job, out);
-    give_up(state, pending);
+    if (!hand_over_if(job.state, JobState::asked, JobState::late))
+        (void)hand_over_if(job.state, JobState::done, JobState::free);
+    pending.job = -1;
     return out;
 }
 

@@ -32,9 +32,6 @@ void ask(const CompensationConstants& gyro, const GapBridgeConfig& config, GapBr
 [[nodiscard]] SwitchAngle take(const CompensationConstants& gyro, GapBridgeState& state, PendingGap& pending,
                                bool late) noexcept;
 
-// Nobody is to take it: the settings have changed.
-void give_up(GapBridgeState& state, PendingGap& pending) noexcept;
-
 // Variance of a tick about the mean rate, as learnt; infinite where nothing is.
 [[nodiscard]] double tick_variance(const GapBridgeState& state) noexcept;
 

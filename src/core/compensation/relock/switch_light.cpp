@@ -15,8 +15,6 @@ constexpr double min_noise_ratio = 1e-4;
 // Of the range of a curve, to a part of 1e12.
 constexpr int n_halvings = 40;
 
-constexpr double not_good = __builtin_nan("");
-
 // Mean of a beam; NaN where a sample is not finite or not positive, or where all are the same although they must not
 // be.
 double good_mean(std::span<const float> samples, bool may_stand_still) noexcept {
@@ -29,7 +27,7 @@ double good_mean(std::span<const float> samples, bool may_stand_still) noexcept 
         sum += static_cast<double>(sample);
     }
     const double mean = sum / static_cast<double>(samples.size());
-    return positive && moves && is_finite(mean) ? mean : not_good;
+    return positive && moves && is_finite(mean) ? mean : not_a_number;
 }
 
 // The apparent detuning behind a true one, by halves.

@@ -34,15 +34,15 @@ enum class ValueKind {
     text,
     reals,
     choice,
-    optional_choice,
     choices,
     interval,
     column,
-    points
+    points,
+    optional_choice
 };
-inline constexpr std::array value_kind_names{"real",     "optional_real", "integer",         "text",
-                                             "reals",    "choice",        "optional_choice", "choices",
-                                             "interval", "column",        "points"};
+inline constexpr std::array value_kind_names{"real",   "optional_real", "integer",        "text",
+                                             "reals",  "choice",        "choices",        "interval",
+                                             "column", "points",        "optional_choice"};
 
 // What is known of one key.
 struct KeyInfo {

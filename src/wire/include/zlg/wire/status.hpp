@@ -31,7 +31,7 @@ struct Status {
     float detuning_lambda = 0.0f;        // smoothed, in lock
     float magnetic_arcsec_s = 0.0f;      // drift that is still in the angle, as measured; 0: not known
     float switch_error_arcsec = 0.0f;    // rms of what a switch leaves, as measured; 0: not known
-    std::uint32_t settings_crc = 0;      // of all parameters, as `settings_crc` gives it
+    std::uint32_t settings_crc = 0;      // of what the gyro runs by, as it is stored
     std::uint32_t n_received = 0;        // frames from the host: good,
     std::uint32_t n_damaged = 0;         // and damaged
     std::uint32_t n_overruns = 0;        // halves whose work was not done when the next one ended

@@ -36,12 +36,6 @@ struct SinCos {
 [[nodiscard]] double cos(double x) noexcept;
 [[nodiscard]] SinCos sincos(double x) noexcept;
 
-// Of t turns, sin(2 pi t): exactly 0 and +-1 at multiples of a quarter turn; a zero sine has the sign of t, a zero
-// cosine is positive.
-[[nodiscard]] double sin_turns(double t) noexcept;
-[[nodiscard]] double cos_turns(double t) noexcept;
-[[nodiscard]] SinCos sincos_turns(double t) noexcept;
-
 // Radians.
 [[nodiscard]] double atan2(double y, double x) noexcept;
 [[nodiscard]] double asin(double x) noexcept;

@@ -36,8 +36,6 @@ public:
         return ((numerator_[2][k] * j + numerator_[1][k]) * j + numerator_[0][k]) / determinant_;
     }
 
-    friend bool operator==(const PolynomialFit&, const PolynomialFit&) = default;
-
 private:
     int n_ = 0;
     int order_ = 0;

@@ -13,8 +13,8 @@ enum class FirstSegment : unsigned char {
 };
 
 enum class ScheduleKind : unsigned char {
-    fixed,         // a grid, laid once from the start of the run
-    measured = 2,  // by the time that has passed, and the errors and the drift that compensation has measured
+    fixed,     // a grid, laid once from the start of the run
+    measured,  // by the time that has passed, and the errors and the drift that compensation has measured
 };
 
 struct SwitchScheduleConfig {
@@ -75,7 +75,7 @@ struct SwitchScheduleInput {
 // Ask at every tick border whether to open the loop at the start of this tick.
 //
 //   fixed     opening k is due before tick first_tick + k interval_ticks, k = 0, 1, ...; a late one does not move the
-//             grid. Should the tick jump over a whole interval, the grid is laid anew from there.
+//             grid.
 //   measured  due where the time in mode + exceeds that in mode - by interval/2, or the other way round: so the
 //   sawtooth
 //             stays centred while the interval changes, and a late opening is made good by the next one. With a full
@@ -85,8 +85,6 @@ struct SwitchScheduleInput {
 //             factor of 2 at most.
 //   end_tick  the last opening is due where the time that is left just makes up for the imbalance.
 //   held      points of the grid pass; when it ends, `measured` is due at once where the time in the modes asks for it.
-//
-// An interval that has been made shorter since counts from now.
 //
 // config  passed `check`.
 // state   from `initial_state`.
