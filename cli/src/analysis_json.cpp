@@ -14,18 +14,16 @@ using study::AxisResult;
 
 json curve_json(const deviations::DeviationCurve& curve) {
     json points = json::array();
-    const bool is_total = deviations::is_total(curve.kind);
+    const bool is_total = curve.kind == deviations::DeviationKind::totdev;
     for (const auto& p : curve.points) {
         points.push_back(fields_json(p, {{"terms", "n"}}));
         points.back()["edf"] = p.law.edf;
         if (!is_total) points.back().erase("as_computed");
     }
-    json j{{"kind", deviations::name_of(curve.kind)},
-           {"unit", curve.kind == deviations::DeviationKind::tdev ? "arcsec" : "arcsec/s"},
-           {"confidence", curve.confidence},
-           {"points", points}};
-    if (is_total) j["total_bias"] = deviations::name_of(curve.total_bias);
-    return j;
+    return {{"kind", deviations::name_of(curve.kind)},
+            {"unit", curve.kind == deviations::DeviationKind::tdev ? "arcsec" : "arcsec/s"},
+            {"confidence", curve.confidence},
+            {"points", points}};
 }
 
 json curves_json(const std::vector<deviations::DeviationCurve>& curves) {

@@ -111,7 +111,7 @@ constexpr std::array kinds{
     Kind{"--mapping", "FILE.toml"},
     Kind{"--map", "KEY=VALUE"},
     Kind{"--write-mapping", "FILE.toml"},
-    Kind{"--rate-arcsec-s", "NUMBER,..."},
+    Kind{"--rate-arcsec-s", "NUMBER"},
     Kind{"--imu-yaml", "FILE.yaml"},
     Kind{"--compare", "FILE.yaml"},
 };

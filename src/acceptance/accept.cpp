@@ -139,7 +139,7 @@ private:
             throw logs::IoError(fmt::format("{}: is no log of the plan", path));
         };
         return constant_values(
-            study::calibrate({.logs = raw, .rate_arcsec_s = {}, .said = said, .open = open, .on_progress = {}}));
+            study::calibrate({.logs = raw, .said = said, .open = open, .on_progress = {}}));
     }
 
     // A run whose values are no measurements leaves open all that it would have told.

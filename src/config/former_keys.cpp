@@ -12,7 +12,7 @@ constexpr std::string_view motion_is_learnt = "leave it out: the motion is learn
 constexpr std::string_view value_is_fixed = "leave it out: its default is what is done";
 constexpr std::string_view layout_is_mapped = "take --map with the same key";
 
-constexpr std::array<FormerKey, 43> formers{{
+constexpr std::array<FormerKey, 45> formers{{
     {"gyro", "coil_current", "", 3, "leave it out: the current is monitored, and not recorded"},
     {"switching", "after_step", "", 3, "leave it out: a switch waits for its time"},
     {"switching", "schedule", "growing", 3, "take switching.schedule = \"measured\""},
@@ -40,6 +40,8 @@ constexpr std::array<FormerKey, 43> formers{{
     {"faults", "vibration_hz", "", 3, value_is_fixed},
     {"analysis", "taus_per_decade", "", 3, "name the times in analysis.taus_s"},
     {"analysis", "taus", "log", 3, "name the times in analysis.taus_s"},
+    {"analysis", "deviations", "mtotdev", 3, "take \"mdev\" or \"totdev\""},
+    {"analysis", "deviations", "htotdev", 3, "take \"ohdev\""},
     {"analysis", "least_known_ratio", "", 3, value_is_fixed},
     {"analysis", "total_bias", "", 3, "leave it out: as_computed stands beside the deviation"},
     {"analysis", "angles", "", 3, "leave it out: the final angles are analysed"},
@@ -59,19 +61,11 @@ constexpr std::array<FormerKey, 43> formers{{
     {"analysis", "table_scale_arcsec_s", "", 3, "take --map table_unit=..."},
 }};
 
-// Without blanks about it and the quotes of a text.
-std::string_view bare(std::string_view value) {
-    constexpr std::string_view around = " \t\"'";
-    const auto first = value.find_first_not_of(around);
-    return first == std::string_view::npos ? std::string_view{}
-                                           : value.substr(first, value.find_last_not_of(around) - first + 1);
-}
-
 }  // namespace
 
 const FormerKey* find_former(std::string_view section, std::string_view name, std::string_view value) {
     for (const FormerKey& former : formers)
-        if (former.section == section && former.name == name && (former.value.empty() || former.value == bare(value)))
+        if (former.section == section && former.name == name && value.find(former.value) != std::string_view::npos)
             return &former;
     return nullptr;
 }

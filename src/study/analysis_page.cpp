@@ -24,7 +24,7 @@ report::Table curve_table(const View& v, const deviations::DeviationCurve& curve
                         "freedom; last the spectrum of the rate.",
                         deviations::name_of(curve.kind), is_angle ? "arcsec" : v.unit(), 100.0 * curve.confidence),
                     .header = {"tau, s", "n", "deviation", "low", "high", "edf", "noise"}};
-    if (deviations::is_total(curve.kind)) {
+    if (curve.kind == deviations::DeviationKind::totdev) {
         t.caption += " As computed: with the bias of mirroring, which is taken out of the deviation.";
         t.header.emplace_back("as computed");
     }
@@ -34,7 +34,7 @@ report::Table curve_table(const View& v, const deviations::DeviationCurve& curve
         t.rows.push_back({short_number(p.tau_s), fmt::format("{}", p.terms), fmt::format("{:.4g}", shown(p.deviation)),
                           fmt::format("{:.4g}", shown(p.low)), fmt::format("{:.4g}", shown(p.high)),
                           short_number(p.law.edf), fmt::format("f^{}", p.noise)});
-        if (deviations::is_total(curve.kind)) t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
+        if (curve.kind == deviations::DeviationKind::totdev) t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
     }
     return t;
 }

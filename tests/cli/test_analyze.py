@@ -85,10 +85,9 @@ class Analyze(CliTest):
         self.assertIn("tdev, arcsec; intervals of 95 %", result.stdout)
         axis = self.json_of(path, *TEXT, "--set", "analysis.taus_s=[0.1, 1, 10]")["axes"][0]
         self.assertEqual([point["tau_s"] for point in axis["deviations"][0]["points"]], [0.1, 1.0, 10.0])
-        said = ["--set", "analysis.deviations=mtotdev", "--set", "analysis.taus_s=[1]"]
+        said = ["--set", "analysis.deviations=totdev", "--set", "analysis.taus_s=[1]"]
         (curve,) = self.json_of(path, *TEXT, *said)["axes"][0]["deviations"]
-        self.assertEqual(curve["total_bias"], "removed")
-        self.assertNotEqual(curve["points"][0]["deviation"], curve["points"][0]["as_computed"])
+        self.assertIn("as_computed", curve["points"][0])
 
     def test_a_run_gives_its_drifts_back(self):
         out = self.folder / "run"

@@ -57,9 +57,8 @@ struct AnalysisResult {
 
 inline constexpr double earth_rate_arcsec_s = 15.041067;
 
-// errors  config::ConfigError: no deviation is asked for, or mtotdev or htotdev at averaging times that take many
-// minutes and are not in taus_s; deviations::SeriesError, with the axis' name: nothing known, all equal, too short for
-// a deviation, a tau that it does not have.
+// errors  deviations::SeriesError, with the axis' name: nothing known, all equal, too short for a deviation, a tau that
+// it does not have.
 [[nodiscard]] AxisResult analyze_axis(const AnalysisTask& task, AxisRecord record);
 
 // Axes that are errors are passed over.
