@@ -108,11 +108,6 @@ json analysis_json(const study::AnalysisResult& result) {
     for (const AxisResult& axis : result.axes) j["axes"].push_back(axis_json(axis));
     j["earth"] = fields_json(result.earth, {{"n_axes", "axes"}});
     for (json& line : j["earth"]) line["earth_arcsec_s"] = study::earth_rate_arcsec_s;
-    if (result.presumed)
-        j["presumed"] = {{"name", result.presumed->name},
-                         {"angle_random_walk_arcsec_sqrt_s", result.presumed->terms.angle_random_walk_arcsec_sqrt_s},
-                         {"rate_random_walk_arcsec_s_sqrt_s", result.presumed->terms.rate_random_walk_arcsec_s_sqrt_s},
-                         {"data_sheet", fields_json(noise::data_sheet(result.presumed->terms))}};
     for (const auto& test : result.tables) j["rate_tables"].push_back(table_json(test));
     return j;
 }

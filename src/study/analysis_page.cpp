@@ -186,11 +186,6 @@ report::Section earth_section(const AnalysisResult& result) {
         t.rows.push_back({fmt::format("norm of {} axes; the Earth: {:.3f}", line.n_axes, earth_rate_arcsec_s),
                           with_error(line.norm_arcsec_s, line.sigma_arcsec_s)});
     s.tables.push_back(std::move(t));
-    if (!result.presumed) return s;
-    const noise::DataSheet sheet = noise::data_sheet(result.presumed->terms);
-    s.paragraphs.push_back(fmt::format("{} presumes {:.4g} deg/sqrt(h) and {:.4g} deg/h/sqrt(h).",
-                                       result.presumed->name, sheet.angle_random_walk_deg_sqrt_h,
-                                       sheet.rate_random_walk_deg_h_sqrt_h));
     return s;
 }
 
@@ -241,8 +236,7 @@ report::Figure residual_figure(const config::Analysis& config, const calibration
 }
 
 std::vector<report::Figure> axis_figures(const config::Analysis& config, const AxisResult& axis, std::size_t index) {
-    static const std::optional<PresumedNoise> none;
-    const View v{.config = config, .axis = axis, .index = index, .presumed = none};
+    const View v{.config = config, .axis = axis, .index = index};
     std::vector<report::Figure> figures{course_figure(v)};
     if (!axis.curves.empty() && can_be_drawn(axis.curves.front())) figures.push_back(sigma_figure(v));
     if (!axis.modes || axis.modes->segments.size() < 2) return figures;
@@ -258,7 +252,7 @@ report::Page analysis_page(const config::Analysis& config, const AnalysisResult&
         .lead = "Deviations, fitted noise terms, drift by mode and errors of switches of what was recorded."};
     std::vector<std::string> names;
     for (std::size_t k = 0; k < result.axes.size(); ++k) {
-        const View v{.config = config, .axis = result.axes[k], .index = k, .presumed = result.presumed};
+        const View v{.config = config, .axis = result.axes[k], .index = k};
         page.sections.push_back(section_of(v));
         if (v.axis.modes && v.axis.modes->segments.size() > 1) page.sections.push_back(mode_section(v));
         page.sections.push_back(number_section(v));

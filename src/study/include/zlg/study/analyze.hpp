@@ -25,12 +25,6 @@ struct EarthLine {
     double sigma_arcsec_s = 0.0;
 };
 
-// Noise that somebody presumes, to be drawn beside what was measured.
-struct PresumedNoise {
-    std::string name;
-    noise::NoiseTerms terms;
-};
-
 // A rate-table test of one axis.
 struct TableResult {
     std::string name, holds;
@@ -42,7 +36,6 @@ struct TableResult {
 struct AnalysisResult {
     std::vector<AxisResult> axes;
     std::vector<EarthLine> earth;  // of groups of three axes
-    std::optional<PresumedNoise> presumed;
     std::vector<TableResult> tables;
     std::optional<report::Section> made{};  // how the page was made, where more is known than the settings
 };
