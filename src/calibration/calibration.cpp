@@ -91,8 +91,7 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
         c.goodness.push_back({"curve_chi2_per_dof", c.curve.chi2_per_dof,
                               fmt::format("residuals of {} re-locks over white rounding; about 1", c.curve.n_relocks)});
     add(find_half_wave_law(logs, reference_c, presumed.half_wave_temperature_coefficient_per_c), c);
-    DriftLaw drift =
-        find_drift_law(logs, presumed.scale_arcsec, presumed.rate_arcsec_s, bias, presumed.field.of_logs);
+    DriftLaw drift = find_drift_law(logs, presumed.scale_arcsec, presumed.rate_arcsec_s, bias, presumed.field.of_logs);
     if (presumed.field.of_logs.empty())
         drift.sensitivity_arcsec_s_g = drift.sensitivity_per_c = numeric::refused(presumed.field.why_none);
     add(drift, c);

@@ -12,9 +12,9 @@
 namespace zlg::deviations {
 namespace {
 
-constexpr std::int64_t max_steps = 64;         // into which an averaging time is divided
-constexpr std::int64_t max_flicker_m = 512;    // flicker of the angle depends on the sampling, up to there
-constexpr double max_values = 160.0;           // of the record that is taken apart
+constexpr std::int64_t max_steps = 64;       // into which an averaging time is divided
+constexpr std::int64_t max_flicker_m = 512;  // flicker of the angle depends on the sampling, up to there
+constexpr double max_values = 160.0;         // of the record that is taken apart
 
 // Generalised covariance of n + 1 angles of which `steps` are in an averaging time of m samples.
 Eigen::MatrixXd angle_covariance(int noise, std::int64_t m, std::int64_t steps, Eigen::Index n) {
@@ -25,8 +25,8 @@ Eigen::MatrixXd angle_covariance(int noise, std::int64_t m, std::int64_t steps, 
     } else {
         const std::int64_t apart = std::max<std::int64_t>(1, std::min(m, max_flicker_m) / steps);
         for (Eigen::Index k = 0; k <= n; ++k)
-            of_lag[k] = noise == 1 ? flicker_covariance(k * apart)
-                                   : continuous_covariance(static_cast<double>(k), noise + 2);
+            of_lag[k] =
+                noise == 1 ? flicker_covariance(k * apart) : continuous_covariance(static_cast<double>(k), noise + 2);
     }
     return toeplitz(of_lag, n + 1);
 }
@@ -91,8 +91,7 @@ double total_bias(int noise, std::int64_t m, std::int64_t n_intervals) {
     const std::int64_t steps = std::min(m, max_steps), n = 2 * steps;
     // About the first angles up to the one that needs no mirror, and that one.
     const Eigen::MatrixXd terms = mirrored_terms(steps, n, steps);
-    const Eigen::VectorXd square =
-        (terms * angle_covariance(noise, m, steps, n)).cwiseProduct(terms).rowwise().sum();
+    const Eigen::VectorXd square = (terms * angle_covariance(noise, m, steps, n)).cwiseProduct(terms).rowwise().sum();
     const double end = square.head(steps - 1).sum() / square[steps - 1];
     // Sums become integrals where thinned.
     const double mirrored = static_cast<double>(m) / static_cast<double>(steps) * (end + 0.5) - 0.5;
