@@ -113,7 +113,6 @@ constexpr std::array kinds{
     Kind{"--write-mapping", "FILE.toml"},
     Kind{"--rate-arcsec-s", "NUMBER"},
     Kind{"--imu-yaml", "FILE.yaml"},
-    Kind{"--compare", "FILE.yaml"},
 };
 
 void name_kinds(CLI::App& verb) {
