@@ -34,7 +34,8 @@ report::Table curve_table(const View& v, const deviations::DeviationCurve& curve
         t.rows.push_back({short_number(p.tau_s), fmt::format("{}", p.terms), fmt::format("{:.4g}", shown(p.deviation)),
                           fmt::format("{:.4g}", shown(p.low)), fmt::format("{:.4g}", shown(p.high)),
                           short_number(p.law.edf), fmt::format("f^{}", p.noise)});
-        if (curve.kind == deviations::DeviationKind::totdev) t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
+        if (curve.kind == deviations::DeviationKind::totdev)
+            t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
     }
     return t;
 }

@@ -24,9 +24,9 @@ double last_digit(double value, int digits) { return std::pow(10.0, std::ceil(st
 TEST(DeviationPublished, gives_the_published_values_of_the_nine_point_set) {
     const auto record = record_of(nbs14_small());
     const std::vector<Published> table{
-        {DeviationKind::adev, {91.22945, 115.8082}},   {DeviationKind::oadev, {91.22945, 85.95287}},
-        {DeviationKind::mdev, {91.22945, 74.78849}},   {DeviationKind::tdev, {52.67135, 86.35831}},
-        {DeviationKind::hdev, {70.80607, 116.7980}},   {DeviationKind::ohdev, {70.80607, 85.61487}},
+        {DeviationKind::adev, {91.22945, 115.8082}},  {DeviationKind::oadev, {91.22945, 85.95287}},
+        {DeviationKind::mdev, {91.22945, 74.78849}},  {DeviationKind::tdev, {52.67135, 86.35831}},
+        {DeviationKind::hdev, {70.80607, 116.7980}},  {DeviationKind::ohdev, {70.80607, 85.61487}},
         {DeviationKind::totdev, {91.22945, 93.90379}}};
     for (const auto& row : table)
         for (std::size_t k = 0; k < 2; ++k) {

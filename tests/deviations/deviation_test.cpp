@@ -55,8 +55,7 @@ TEST(Deviation, agrees_with_the_definition_on_random_records) {
                 for (const std::int64_t m : {1, 2, 3, 8, 21, 40, 66}) {
                     const auto expected = direct::variance(kind, {values}, m, static_cast<long double>(ratio));
                     const std::array factors{m};
-                    const DeviationOptions options{
-                        .least_known_ratio = ratio, .noise = 0};
+                    const DeviationOptions options{.least_known_ratio = ratio, .noise = 0};
                     if (expected.terms == 0) {
                         EXPECT_THROW(deviation(record, kind, factors, options), SeriesError);
                         continue;

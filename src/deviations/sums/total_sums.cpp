@@ -44,8 +44,7 @@ TermSum total_sum(const RecordView& view, std::int64_t m) {
     // Centres whose windows lie within the record are the terms of the overlapping deviation.
     const std::int64_t past_inside = last - m + 1;
     TermSum total;
-    for (std::int64_t centre = 1; centre < m; ++centre)
-        total.add(mirrored_term(view, m, centre));
+    for (std::int64_t centre = 1; centre < m; ++centre) total.add(mirrored_term(view, m, centre));
     constexpr std::int64_t block = 1 << 16;
     for (std::int64_t begin = 0; begin < past_inside - m; begin += block)
         total.add(difference_sum(view, 2, m, begin, std::min(begin + block, past_inside - m)));

@@ -14,7 +14,7 @@ struct DeviationOptions {
     double confidence = 0.6827;      // of the intervals, 0 < . <= max_confidence
     double least_known_ratio = 0.9;  // of each averaging window, 0 < . <= 1; 1: no gap within a window
     std::optional<int> noise{};  // exponent of the rate's spectrum f^noise, 2 .. -4; absent: identified from the data
-    int threads = 1;  // the result has the same bits with any number
+    int threads = 1;             // the result has the same bits with any number
 };
 
 // errors  SeriesError: an option out of its range.
@@ -26,9 +26,9 @@ struct DeviationPoint {
     double deviation = 0.0;  // arcsec/s; tdev arcsec; without unit for Unit::one
     double low = 0.0;        // interval of `confidence`
     double high = 0.0;
-    std::int64_t terms = 0;  // differences that were known
-    VarianceLaw law{};       // for intervals of another confidence
-    int noise = 0;           // exponent of the rate's spectrum at this tau
+    std::int64_t terms = 0;    // differences that were known
+    VarianceLaw law{};         // for intervals of another confidence
+    int noise = 0;             // exponent of the rate's spectrum at this tau
     double as_computed = 0.0;  // of totdev: with the bias of the mirroring, which the noise decides
 };
 

@@ -14,8 +14,8 @@ namespace zlg::deviations {
 //   totdev           oadev with the record mirrored at both ends (angle: doubly reflected)
 enum class DeviationKind { adev, oadev, mdev, tdev, hdev, ohdev, totdev };
 
-inline constexpr std::array deviation_kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
-                                            DeviationKind::tdev,   DeviationKind::hdev,    DeviationKind::ohdev,
+inline constexpr std::array deviation_kinds{DeviationKind::adev,  DeviationKind::oadev, DeviationKind::mdev,
+                                            DeviationKind::tdev,  DeviationKind::hdev,  DeviationKind::ohdev,
                                             DeviationKind::totdev};
 
 [[nodiscard]] std::string_view name_of(DeviationKind kind);

@@ -47,7 +47,8 @@ struct CalibrationTask {
 
 // Every log is read once, row by row.
 //
-// errors  config::ConfigError: a rate that no gyro has, a log that is named twice, logs whose reference temperature or loop differ, tick or scale that nobody says or that are contradicted;
+// errors  config::ConfigError: a rate that no gyro has, a log that is named twice, logs whose reference temperature or
+// loop differ, tick or scale that nobody says or that are contradicted;
 //         logs::FormatError: logs of different ticks or scales, one without a whole tick, one whose settings are wrong;
 //         those of `open`.
 [[nodiscard]] CalibrationResult calibrate(const CalibrationTask& task);
