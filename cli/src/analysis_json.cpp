@@ -14,18 +14,16 @@ using study::AxisResult;
 
 json curve_json(const deviations::DeviationCurve& curve) {
     json points = json::array();
-    const bool is_total = deviations::is_total(curve.kind);
+    const bool is_total = curve.kind == deviations::DeviationKind::totdev;
     for (const auto& p : curve.points) {
         points.push_back(fields_json(p, {{"terms", "n"}}));
         points.back()["edf"] = p.law.edf;
         if (!is_total) points.back().erase("as_computed");
     }
-    json j{{"kind", deviations::name_of(curve.kind)},
-           {"unit", curve.kind == deviations::DeviationKind::tdev ? "arcsec" : "arcsec/s"},
-           {"confidence", curve.confidence},
-           {"points", points}};
-    if (is_total) j["total_bias"] = deviations::name_of(curve.total_bias);
-    return j;
+    return {{"kind", deviations::name_of(curve.kind)},
+            {"unit", curve.kind == deviations::DeviationKind::tdev ? "arcsec" : "arcsec/s"},
+            {"confidence", curve.confidence},
+            {"points", points}};
 }
 
 json curves_json(const std::vector<deviations::DeviationCurve>& curves) {
@@ -110,11 +108,6 @@ json analysis_json(const study::AnalysisResult& result) {
     for (const AxisResult& axis : result.axes) j["axes"].push_back(axis_json(axis));
     j["earth"] = fields_json(result.earth, {{"n_axes", "axes"}});
     for (json& line : j["earth"]) line["earth_arcsec_s"] = study::earth_rate_arcsec_s;
-    if (result.presumed)
-        j["presumed"] = {{"name", result.presumed->name},
-                         {"angle_random_walk_arcsec_sqrt_s", result.presumed->terms.angle_random_walk_arcsec_sqrt_s},
-                         {"rate_random_walk_arcsec_s_sqrt_s", result.presumed->terms.rate_random_walk_arcsec_s_sqrt_s},
-                         {"data_sheet", fields_json(noise::data_sheet(result.presumed->terms))}};
     for (const auto& test : result.tables) j["rate_tables"].push_back(table_json(test));
     return j;
 }

@@ -47,8 +47,8 @@ py::list logs_of(const study::CalibrationResult& result) {
 }
 
 // `held` of each log that is in memory, by its name; the others are files.
-py::dict calibrate(const std::vector<std::string>& names, const py::dict& held,
-                   const std::vector<double>& rate_arcsec_s, const config::Config& said, const py::object& progress) {
+py::dict calibrate(const std::vector<std::string>& names, const py::dict& held, double rate_arcsec_s,
+                   const config::Config& said, const py::object& progress) {
     const Progress notify{progress};
     std::map<std::string, HeldLog> in_memory;
     for (const auto& [name, each] : held) {

@@ -16,7 +16,6 @@ py::dict dict_of(const deviations::DeviationCurve& curve) {
     d["kind"] = name_of(curve.kind);
     d["confidence"] = curve.confidence;
     d["edf"] = column(curve.points, [](const deviations::DeviationPoint& p) { return p.law.edf; });
-    d["bias"] = name_of(curve.total_bias);
     return d;
 }
 
@@ -71,15 +70,13 @@ void bind_deviations(py::module_& m) {
              }),
              "values"_a, "rate_hz"_a, "data_type"_a, "unit"_a, "valid"_a);
     py::class_<DeviationOptions>(m, "DeviationOptions")
-        .def(py::init([](double confidence, double least_known_ratio, std::optional<int> noise, const std::string& bias,
-                         int threads) {
+        .def(py::init([](double confidence, double least_known_ratio, std::optional<int> noise, int threads) {
                  return DeviationOptions{.confidence = confidence,
                                          .least_known_ratio = least_known_ratio,
                                          .noise = noise,
-                                         .total_bias = total_bias_of(bias),
                                          .threads = threads};
              }),
-             "confidence"_a, "least_known_ratio"_a, "noise"_a, "bias"_a, "threads"_a);
+             "confidence"_a, "least_known_ratio"_a, "noise"_a, "threads"_a);
     m.def("deviation", &deviation_of, "kind"_a, "samples"_a, "taus"_a, "per_decade"_a, "drop_long_taus"_a, "options"_a);
     // Angles that were bridged, guessed or distrusted are no measurements of the gyro's noise.
     m.attr("not_measured") = core::flag_extrapolated | core::flag_interpolated | core::flag_unrepaired |

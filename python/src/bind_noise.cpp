@@ -144,13 +144,6 @@ void bind_units(py::module_& m) {
         [](const NoiseTerms& terms, double rate_hz) { return fields_dict(discrete_noise(terms, rate_hz)); }, "terms"_a,
         "rate_hz"_a);
     m.def(
-        "read_imu_yaml",
-        [](const std::string& path) {
-            const KalibrGyro gyro = read_imu_yaml(path);
-            return std::pair{terms_of(gyro), gyro.update_rate_hz};
-        },
-        "path"_a);
-    m.def(
         "imu_yaml", [](const NoiseTerms& terms, double rate_hz) { return imu_yaml(kalibr_gyro(terms, rate_hz)); },
         "terms"_a, "rate_hz"_a);
 }

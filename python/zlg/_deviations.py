@@ -15,8 +15,8 @@ from ._shown import Columns, axes_of
 from .logs import AngleLog
 
 __all__ = [
-    "Deviations", "KINDS", "adev", "deviation", "deviations_of_log", "hdev", "htotdev",
-    "mdev", "mtotdev", "oadev", "ohdev", "tdev", "totdev",
+    "Deviations", "KINDS", "adev", "deviation", "deviations_of_log", "hdev",
+    "mdev", "oadev", "ohdev", "tdev", "totdev",
 ]  # fmt: skip
 
 Floats = NDArray[np.float64]
@@ -24,9 +24,7 @@ DataType = Literal["increments", "rate", "phase"]
 Taus = Union[Literal["octave", "decade", "log", "all"], Sequence[float], Floats, None]
 Unit = Literal["arcsec", "rad", "deg", "arcsec/s", "rad/s", "deg/s", "deg/h", "1"]
 
-TotalBias = Literal["removed", "published", "as_computed"]
-
-KINDS = ("adev", "oadev", "mdev", "tdev", "hdev", "ohdev", "totdev", "mtotdev", "htotdev")
+KINDS = ("adev", "oadev", "mdev", "tdev", "hdev", "ohdev", "totdev")
 
 
 @dataclass(repr=False)
@@ -50,10 +48,8 @@ class Deviations(Columns):
     edf: Floats
     #: exponent of the rate's spectrum f^noise at this tau
     noise: NDArray[np.int32]
-    #: of totdev, mtotdev and htotdev with the bias of mirroring; of others the deviation
+    #: of totdev with the bias of mirroring, which is taken out of `deviation`; of others the deviation
     as_computed: Floats
-    #: what was done about that bias: "removed", "published" or "as_computed"
-    bias: str
 
     _index = "tau_s"
 
@@ -92,7 +88,6 @@ def deviation(
     confidence: float = 0.6827,
     least_known_ratio: float = 0.9,
     noise: Optional[int] = None,
-    bias: TotalBias = "removed",
     threads: int = 1,
 ) -> Deviations:
     """A deviation of a record with gaps, in arcsec/s, with intervals.
@@ -103,12 +98,10 @@ def deviation(
     taus        "octave" (default), "decade", "log" (per_decade), "all", or times in s
     least_known_ratio  of each averaging window
     noise       exponent of the rate's spectrum, 2 .. -4; default: identified from the data
-    bias        that mirroring gives totdev, mtotdev, htotdev: "removed", "published" (removed by the factors of NIST SP 1065,
-                whose tables have them), "as_computed" (as AllanTools and Stable32)
     Raises SeriesError: no sample, nothing known, all equal, another unit, no tau with a term.
     """
     samples = _zlg.Samples(floats(data), rate_hz, data_type, unit, mask(valid))
-    options = _zlg.DeviationOptions(confidence, least_known_ratio, noise, bias, threads)
+    options = _zlg.DeviationOptions(confidence, least_known_ratio, noise, threads)
     return made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), per_decade, False, options))
 
 
@@ -117,22 +110,23 @@ class Estimator(Protocol):
 
     def __call__(
         self, data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-        valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
+        valid: Optional[ArrayLike] = None,
     ) -> Known: ...  # fmt: skip
 
 
 def _estimator(kind: str, name: str) -> Estimator:
     def estimate(
         data: ArrayLike, rate: float = 1.0, data_type: Optional[str] = None, taus: Taus = None,
-        valid: Optional[ArrayLike] = None, *, bias: TotalBias = "as_computed",
+        valid: Optional[ArrayLike] = None,
     ) -> Known:  # fmt: skip
         if data_type is None:
             raise TypeError('data_type must be given: "increments", "rate" (or "freq") or "phase"')
         called = "rate" if data_type == "freq" else data_type
         samples = _zlg.Samples(floats(data), rate, called, "1", mask(valid))
-        options = _zlg.DeviationOptions(0.6827, 0.9, None, bias, 1)
+        options = _zlg.DeviationOptions(0.6827, 0.9, None, 1)
         d = made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), 20, True, options))
-        return Known(d.tau_s, d.deviation, 0.5 * (d.high - d.low), d.terms)
+        mirrored = d.as_computed / np.where(d.deviation > 0.0, d.deviation, 1.0)
+        return Known(d.tau_s, d.as_computed, 0.5 * (d.high - d.low) * mirrored, d.terms)
 
     estimate.__name__ = estimate.__qualname__ = kind
     estimate.__doc__ = f"""{name}, in the unit of the data (a rate; of tdev an angle).
@@ -141,7 +135,6 @@ def _estimator(kind: str, name: str) -> Estimator:
     rate       samples per second
     data_type  "increments", "rate" (also "freq") or "phase"; must be given
     taus       "octave" (default), "decade", "log", "all", or times in s, of which those that the record has no term of are left out
-    bias       of totdev, mtotdev, htotdev: by default that of mirroring stays, as with AllanTools and Stable32; others as of `deviation`
     Returns (taus, devs, errs, ns), each of shape (taus,). Raises SeriesError; TypeError without data_type.
     """
     return estimate
@@ -153,9 +146,7 @@ mdev = _estimator("mdev", "Modified Allan deviation")
 tdev = _estimator("tdev", "Time deviation, tau/sqrt(3) times the modified one")
 hdev = _estimator("hdev", "Hadamard deviation")
 ohdev = _estimator("ohdev", "Overlapping Hadamard deviation")
-totdev = _estimator("totdev", "Total deviation")
-mtotdev = _estimator("mtotdev", "Modified total deviation")
-htotdev = _estimator("htotdev", "Hadamard total deviation")
+totdev = _estimator("totdev", "Total deviation, with the bias of mirroring as AllanTools and Stable32 have it")
 
 
 def deviations_of_log(

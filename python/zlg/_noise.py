@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
-from typing import Any, Optional, Union
+from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +16,7 @@ from ._zlg import NoiseTerms
 
 __all__ = [
     "DiscreteNoise", "FittedTerm", "ModeSplit", "NoiseFit", "NoiseTerms", "RateTable", "data_sheet",
-    "discrete_noise", "fit_noise", "imu_yaml", "rate_table", "read_imu_yaml", "split_modes",
+    "discrete_noise", "fit_noise", "imu_yaml", "rate_table", "split_modes",
     "terms_of_data_sheet", "welch_spectrum",
 ]  # fmt: skip
 
@@ -129,11 +128,6 @@ class DiscreteNoise(Shown):
 def discrete_noise(terms: NoiseTerms, rate_hz: float) -> DiscreteNoise:
     """What a filter or a simulation at that rate needs. Raises SeriesError: rate not positive."""
     return made_of(DiscreteNoise, _zlg.discrete_noise(terms, rate_hz))
-
-
-def read_imu_yaml(path: Union[str, os.PathLike[str]]) -> tuple[NoiseTerms, float]:
-    """Kalibr's imu.yaml: terms, and samples per second. Raises IoError, FormatError."""
-    return _zlg.read_imu_yaml(os.fspath(path))
 
 
 def imu_yaml(terms: NoiseTerms, rate_hz: float) -> str:

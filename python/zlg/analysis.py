@@ -4,7 +4,7 @@ What the numbers are is always said: `data_type` is "increments" (angle turned i
 "phase" (angle at the borders of the intervals, one more), and has no default. NaN, or valid == False, is a missing sample: it is neither
 filled nor closed up.
 
-`deviation` knows units and intervals. `adev` ... `htotdev` have the signature that users of other tools know.
+`deviation` knows units and intervals. `adev` ... `totdev` have the signature that users of other tools know.
 """
 
 from . import _deviations, _noise

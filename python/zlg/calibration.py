@@ -121,16 +121,16 @@ Log = Union[Path, RawLog]
 def calibrate(
     logs: Union[Log, Sequence[Log]],
     config: Optional[Config] = None,
-    rate_arcsec_s: Union[float, Sequence[float]] = 0.0,
+    rate_arcsec_s: float = 0.0,
     progress: Progress = None,
 ) -> Calibration:
     """What `zlg calibrate` finds: the constants that compensation presumes, each with its sigma, from raw logs of one gyro.
 
     logs           files, which are read row by row, or logs in memory
     config         what it was given goes over what the logs say; of the constants to be found, only these are presumed
-    rate_arcsec_s  known rate at which the gyro was turned: of all logs, or of each
+    rate_arcsec_s  known rate at which the gyro was turned
     Warns of what the program warns of. Raises IoError; FormatError, also for logs of different ticks or scales; ConfigError, also
-    for logs that do not go together and for rates that do not go with them; ValueError where there is no log.
+    for logs that do not go together; ValueError where there is no log.
     """
     each: Sequence[Log] = [logs] if isinstance(logs, (str, os.PathLike, RawLog)) else logs
     if not each:
@@ -145,7 +145,6 @@ def calibrate(
             held[names[-1]] = columns_of(log)
         else:
             names.append(os.fspath(log))
-    rates = [float(rate) for rate in np.atleast_1d(np.asarray(rate_arcsec_s, dtype=np.float64))]
-    found = _zlg.calibrate(names, held, rates, checked(config), progress)
+    found = _zlg.calibrate(names, held, rate_arcsec_s, checked(config), progress)
     warn_each(found["warnings"])
     return made_of(Calibration, found)

@@ -12,7 +12,6 @@
 #include <zlg/study/how_made.hpp>
 
 #include "moved_values.hpp"
-#include "repeated_stretch.hpp"
 #include "values.hpp"
 
 namespace zlg::acceptance {
@@ -34,7 +33,8 @@ public:
                 task_.on_progress(static_cast<double>(run.number - 1) / static_cast<double>(result_.plan.runs.size()));
             records_.push_back(read_run(result_.plan, run, task_.said));
             require_new(records_.back());
-            look_at(records_.back());
+            for (const study::AxisRecord& axis : records_.back().axes)
+                records_.back().hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
             analyze(records_.back());
         }
         const Found moved = moved_values();
@@ -98,14 +98,6 @@ private:
         return all;
     }
 
-    static void look_at(RunRecord& record) {
-        for (const study::AxisRecord& axis : record.axes) {
-            record.hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
-            if (const std::string line = repeated_stretch(axis.rates_arcsec_s); !line.empty())
-                record.stops.push_back(fmt::format("{}: {}", axis.name, line));
-        }
-    }
-
     // A measurement under two names, or in two runs of one kind, would agree with itself too well.
     void require_new(const RunRecord& record) {
         for (const TestedLog& log : record.logs)
@@ -138,8 +130,7 @@ private:
                 if (std::ranges::count(record.raw_logs, path) > 0) return open_raw(*record.run, path, ignored);
             throw logs::IoError(fmt::format("{}: is no log of the plan", path));
         };
-        return constant_values(
-            study::calibrate({.logs = raw, .rate_arcsec_s = {}, .said = said, .open = open, .on_progress = {}}));
+        return constant_values(study::calibrate({.logs = raw, .said = said, .open = open, .on_progress = {}}));
     }
 
     // A run whose values are no measurements leaves open all that it would have told.

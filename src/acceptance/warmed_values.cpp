@@ -7,6 +7,7 @@
 #include <span>
 
 #include <fmt/format.h>
+#include <Eigen/Core>
 
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/bias_temperature.hpp>
@@ -194,8 +195,7 @@ Found warm_up_values(const Plan& plan, const std::vector<RunRecord*>& records) {
 
 Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) {
     Found found;
-    std::vector<std::array<double, 3>> runs;  // field, bias, weight
-    double weights = 0.0, field = 0.0, rate = 0.0;
+    std::vector<double> fields, biases, weights;
     // The run that knows its error least; what a longer record gives is that of the run which it helps least.
     Value of = measured(sensitivity, 0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0);
     of.moves = 0.0;
@@ -203,11 +203,9 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
     for (const StillAxis& axis : in_field) {
         const Value bias = bias_of(plan, axis);
         if (!bias.determined) continue;
-        const double weight = 1.0 / (bias.uncertainty * bias.uncertainty);
-        runs.push_back({axis.run->field_mt, bias.value, weight});
-        weights += weight;
-        field += weight * axis.run->field_mt;
-        rate += weight * bias.value;
+        fields.push_back(axis.run->field_mt);
+        biases.push_back(bias.value);
+        weights.push_back(1.0 / (bias.uncertainty * bias.uncertainty));
         of.hours += bias.hours;
         of.degrees = std::min(of.degrees, bias.degrees);
         of.longer = std::max(of.longer, bias.longer);
@@ -215,29 +213,26 @@ Found magnetic_values(const Plan& plan, const std::vector<StillAxis>& in_field) 
         report::add_point(points, axis.run->field_mt, bias.value);
         points.y_error.push_back(2.0 * bias.uncertainty);
     }
-    double xx = 0.0, xy = 0.0, squares = 0.0;
-    for (const auto& [x, y, weight] : runs) {
-        xx += weight * (x - field / weights) * (x - field / weights);
-        xy += weight * (x - field / weights) * (y - rate / weights);
-    }
+    const auto n = std::ssize(fields);
+    const Eigen::Map<const Eigen::ArrayXd> field(fields.data(), n), bias(biases.data(), n), weight(weights.data(), n);
+    const Eigen::ArrayXd x = field - (weight * field).sum() / weight.sum(),
+                         y = bias - (weight * bias).sum() / weight.sum();
+    const double xx = (weight * x * x).sum();
     if (!(xx > 0.0) || !std::isfinite(xx)) return found;
-    double tested = 0.0;
-    for (const auto& [x, y, weight] : runs) {
-        const double residual = y - rate / weights - xy / xx * (x - field / weights);
-        squares += residual * residual;
-        tested += weight * residual * residual;
-    }
+    of.value = (weight * x * y).sum() / xx;
+    of.uncertainty = 1.0 / std::sqrt(xx);
+    const Eigen::ArrayXd residual = y - of.value * x;
+    const double tested = (weight * residual * residual).sum();
     report::Figure f =
         report::blank_figure("field", "Bias in a magnetic field",
                              "Bias of each run, with twice its standard uncertainty.", "field, mT", "bias, deg/h");
     f.series = {std::move(points)};
     found.figures = {std::move(f)};
-    of.value = xy / xx;
-    of.uncertainty = 1.0 / std::sqrt(xx);
-    if (const double free = static_cast<double>(runs.size()) - 2.0; free > 0.0) {
+    if (const double free = static_cast<double>(n) - 2.0; free > 0.0) {
         if (scatters(tested, free))
             of = measured(sensitivity, of.value, of.uncertainty * std::sqrt(tested / free), free, of.hours);
-        found.values.push_back(deviation("magnetic_residual.deg_h", std::sqrt(squares / free), free, of.hours));
+        found.values.push_back(
+            deviation("magnetic_residual.deg_h", std::sqrt(residual.square().sum() / free), free, of.hours));
     }
     found.values.push_back(std::move(of));
     return found;

@@ -11,16 +11,11 @@
 #include <zlg/calibration/bias_loss.hpp>
 #include <zlg/calibration/drift_law.hpp>
 #include <zlg/calibration/half_wave_law.hpp>
-#include <zlg/calibration/lock_in_law.hpp>
 
 namespace zlg::calibration {
 namespace {
 
-void check(std::span<const LabLog> logs, const Presumed& presumed) {
-    const std::size_t n_rates = presumed.rate_arcsec_s.size();
-    if (n_rates > 1 && n_rates != logs.size())
-        throw std::invalid_argument(fmt::format(
-            "calibration: {} known rates of {} logs, allowed is one for all or one for each", n_rates, logs.size()));
+void check(std::span<const LabLog> logs) {
     if (logs.empty()) throw std::invalid_argument("calibration: 0 logs, allowed is 1 or more");
     for (const LabLog& log : logs)
         if (log.tick_s != logs.front().tick_s)
@@ -75,36 +70,10 @@ void add(const DriftLaw& law, Calibration& c) {
                                       law.rest.worst_ticks)});
 }
 
-// Where the logs differ in their rate, the error of the scale factor makes more of it than any drift.
-DriftLaw find_drift(std::span<const LabLog> logs, const std::vector<double>& rates_arcsec_s, double scale_arcsec,
-                    const BiasLaw& bias, std::span<const FieldCourse> field) {
-    const bool is_one = std::ranges::all_of(rates_arcsec_s, [&](double r) { return r == rates_arcsec_s.front(); });
-    if (is_one) return find_drift_law(logs, scale_arcsec, rates_arcsec_s.front(), bias, field);
-    DriftLaw law;
-    for (numeric::Estimate* each :
-         {&law.magnetic_arcsec_s, &law.magnetic_thermal_arcsec_s, &law.thermal_time_s, &law.nonmagnetic_arcsec_s,
-          &law.random_walk_arcsec_sqrt_s, &law.sensitivity_arcsec_s_g, &law.sensitivity_per_c})
-        *each = numeric::refused("the gyro turned at several rates; logs of one rate would tell");
-    law.rest.worst_ratio = std::numeric_limits<double>::quiet_NaN();
-    return law;
-}
-
-void add(const LockInLaw& law, Calibration& c) {
-    c.constants.push_back({"compensation.lock_in_hz", "Hz", law.threshold_hz});
-    if (law.threshold_hz.determined)
-        c.goodness.push_back({"lock_in_scatter_ppm", law.scatter_ppm,
-                              fmt::format("rms of the rates about the law of lock-in, of the largest rate, {} degrees "
-                                          "of freedom",
-                                          law.dof)});
-}
-
 }  // namespace
 
 Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
-    check(logs, presumed);
-    std::vector<double> rates_arcsec_s = presumed.rate_arcsec_s;
-    if (rates_arcsec_s.empty()) rates_arcsec_s = {0.0};
-    rates_arcsec_s.resize(logs.size(), rates_arcsec_s.front());
+    check(logs);
     Calibration c;
     const double reference_c = presumed.reference_temperature_c;
     const BiasLaw bias = find_bias_law(logs, reference_c, presumed.bias_temperature_coefficient_per_c);
@@ -122,13 +91,10 @@ Calibration calibrate(std::span<const LabLog> logs, const Presumed& presumed) {
         c.goodness.push_back({"curve_chi2_per_dof", c.curve.chi2_per_dof,
                               fmt::format("residuals of {} re-locks over white rounding; about 1", c.curve.n_relocks)});
     add(find_half_wave_law(logs, reference_c, presumed.half_wave_temperature_coefficient_per_c), c);
-    DriftLaw drift = find_drift(logs, rates_arcsec_s, presumed.scale_arcsec, bias, presumed.field.of_logs);
+    DriftLaw drift = find_drift_law(logs, presumed.scale_arcsec, presumed.rate_arcsec_s, bias, presumed.field.of_logs);
     if (presumed.field.of_logs.empty())
         drift.sensitivity_arcsec_s_g = drift.sensitivity_per_c = numeric::refused(presumed.field.why_none);
     add(drift, c);
-    add(find_lock_in_law(logs, rates_arcsec_s,
-                         {.edge_s = presumed.bias_edge_s, .counts_per_turn = presumed.counts_per_turn}),
-        c);
     // A goodness that is no number is left out: the reason stands with its constant, which is not determined.
     std::erase_if(c.goodness, [](const Goodness& g) { return !std::isfinite(g.value); });
     return c;

@@ -164,7 +164,8 @@ Regression regress(const std::vector<Step>& steps, const Eigen::MatrixXd& laws, 
     return r;
 }
 
-void fit(const std::vector<Step>& steps, bool with_law, const Converter& converter, HalfWaveLaw& law) {
+void fit(const std::vector<Step>& steps, bool with_law, const Converter& converter, double reference_c,
+         double presumed_per_c, HalfWaveLaw& law) {
     double mean_c = 0.0;
     for (const Step& s : steps) mean_c += s.temperature_c / static_cast<double>(steps.size());
     Eigen::MatrixXd laws = Eigen::MatrixXd::Ones(std::ssize(steps), with_law ? 2 : 1);
@@ -174,7 +175,7 @@ void fit(const std::vector<Step>& steps, bool with_law, const Converter& convert
         if (with_law)
             laws(k, 1) = t_c - mean_c;
         else if (known_c)
-            laws(k, 0) = 1.0 + law.coefficient_taken_per_c * (t_c - law.reference_temperature_c);
+            laws(k, 0) = 1.0 + presumed_per_c * (t_c - reference_c);
     }
     const Regression r = regress(steps, laws, converter);
     law.scatter_v = r.rms_v;
@@ -182,14 +183,13 @@ void fit(const std::vector<Step>& steps, bool with_law, const Converter& convert
         law.half_wave_v = numeric::estimated(r.coefficient[0], std::sqrt(r.covariance(0, 0)));
         return;
     }
-    const double to_reference_c = law.reference_temperature_c - mean_c;
+    const double to_reference_c = reference_c - mean_c;
     const double u0 = r.coefficient[0] + r.coefficient[1] * to_reference_c;
     const double beta = r.coefficient[1] / u0;
     const Eigen::Vector2d by_u0(1.0, to_reference_c);
     const Eigen::Vector2d by_beta(-beta / u0, (1.0 - beta * to_reference_c) / u0);
     law.half_wave_v = numeric::estimated(u0, std::sqrt(by_u0.dot(r.covariance * by_u0)));
     law.temperature_coefficient_per_c = numeric::estimated(beta, std::sqrt(by_beta.dot(r.covariance * by_beta)));
-    law.coefficient_taken_per_c = beta;
 }
 
 void refuse(const std::string& reason, HalfWaveLaw& law) {
@@ -199,13 +199,8 @@ void refuse(const std::string& reason, HalfWaveLaw& law) {
 
 }  // namespace
 
-double HalfWaveLaw::at_v(double temperature_c) const {
-    const double above_c = temperature_c - reference_temperature_c;
-    return half_wave_v.value * (std::isfinite(above_c) ? 1.0 + coefficient_taken_per_c * above_c : 1.0);
-}
-
 HalfWaveLaw find_half_wave_law(std::span<const LabLog> logs, double reference_temperature_c, double presumed_per_c) {
-    HalfWaveLaw law{.coefficient_taken_per_c = presumed_per_c, .reference_temperature_c = reference_temperature_c};
+    HalfWaveLaw law;
     std::vector<Step> steps;
     for (std::size_t k = 0; k < logs.size(); ++k) collect(logs[k], k, steps);
     std::erase_if(steps, [](const Step& s) { return !std::isfinite(s.voltage_v); });
@@ -228,7 +223,7 @@ HalfWaveLaw find_half_wave_law(std::span<const LabLog> logs, double reference_te
     const std::string too_few = too_few_temperatures(logs);
     const bool with_law = too_few.empty() && law.n_switches > min_switches;
     if (!with_law) law.temperature_coefficient_per_c = numeric::refused(too_few.empty() ? "too few switches" : too_few);
-    fit(steps, with_law, converter_of(logs), law);
+    fit(steps, with_law, converter_of(logs), reference_temperature_c, presumed_per_c, law);
     if (law.half_wave_v.determined && !(law.half_wave_v.value > law.half_wave_v.sigma))
         refuse(fmt::format("it comes out as {:.3g} +- {:.3g} V", law.half_wave_v.value, law.half_wave_v.sigma), law);
     return law;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -66,37 +67,36 @@ std::vector<TableStage> stages_of(std::span<const double> input, std::span<const
     return stages;
 }
 
+// Slope and offset.
 struct Line {
-    double slope = 0.0, offset = 0.0;
-    double slope_variance = 0.0, offset_variance = 0.0, covariance = 0.0;
+    Eigen::Vector2d of;
+    Eigen::Matrix2d covariance;
     double dof = 0.0;
     double variance = 0.0;  // of a stage about it
 
-    [[nodiscard]] double at(double input) const { return slope * input + offset; }
-    [[nodiscard]] double variance_at(double input) const {
-        return offset_variance + input * (2.0 * covariance + input * slope_variance) + variance;
-    }
+    [[nodiscard]] double at(double input) const { return of[0] * input + of[1]; }
+    // Of what depends on both by these derivatives.
+    [[nodiscard]] double variance_by(const Eigen::Vector2d& by) const { return by.dot(covariance * by); }
 };
 
 // Least squares, all stages alike; the error from what is left, or, with less than three degrees of freedom, from the
 // scatter within the stages, which do not show how straight the line is.
 std::optional<Line> line_of(const std::vector<TableStage>& stages, const std::function<bool(double)>& wanted) {
-    std::vector<const TableStage*> of;
-    for (const TableStage& s : stages)
-        if (wanted(s.input_arcsec_s)) of.push_back(&s);
-    if (of.size() < 3) return std::nullopt;
+    std::vector<TableStage> of;
+    std::ranges::copy_if(stages, std::back_inserter(of), wanted, &TableStage::input_arcsec_s);
     const auto n = std::ssize(of);
-    double within = 0.0;
-    for (const TableStage* s : of) within += s->output_sigma * s->output_sigma;
+    double within = 0.0, largest = 0.0;
+    for (const TableStage& s : of) {
+        within += s.output_sigma * s.output_sigma;
+        largest = std::max(largest, std::abs(s.input_arcsec_s));
+    }
+    if (n < 3 || largest == 0.0) return std::nullopt;
+    const Eigen::Vector2d unit{1.0 / largest, 1.0};
     Eigen::MatrixX2d a(n, 2);
     Eigen::VectorXd y(n);
-    double largest = 0.0;
-    for (const TableStage* s : of) largest = std::max(largest, std::abs(s->input_arcsec_s));
-    if (largest == 0.0) return std::nullopt;
     for (Eigen::Index k = 0; k < n; ++k) {
-        a(k, 0) = of[static_cast<std::size_t>(k)]->input_arcsec_s / largest;
-        a(k, 1) = 1.0;
-        y[k] = of[static_cast<std::size_t>(k)]->output;
+        a.row(k) << of[static_cast<std::size_t>(k)].input_arcsec_s / largest, 1.0;
+        y[k] = of[static_cast<std::size_t>(k)].output;
     }
     const Eigen::Matrix2d normal = a.transpose() * a;
     if (!(normal.determinant() > 1e-12 * static_cast<double>(n * n))) return std::nullopt;
@@ -105,12 +105,8 @@ std::optional<Line> line_of(const std::vector<TableStage>& stages, const std::fu
     const double dof = static_cast<double>(n) - 2.0;
     const bool few = dof < 3.0;
     const double variance = few ? within / static_cast<double>(n) : (y - a * fit).squaredNorm() / dof;
-    const Eigen::Matrix2d covariance = inverse * variance;
-    return Line{.slope = fit[0] / largest,
-                .offset = fit[1],
-                .slope_variance = covariance(0, 0) / (largest * largest),
-                .offset_variance = covariance(1, 1),
-                .covariance = covariance(0, 1) / largest,
+    return Line{.of = unit.cwiseProduct(fit),
+                .covariance = unit.asDiagonal() * inverse * unit.asDiagonal() * variance,
                 .dof = few ? many : dof,
                 .variance = variance};
 }
@@ -119,7 +115,7 @@ void take_residuals(const Line& line, double same_rate_ratio, RateTable& table) 
     double largest = 0.0, squares = 0.0;
     for (const TableStage& s : table.stages) largest = std::max(largest, std::abs(s.input_arcsec_s));
     for (TableStage& s : table.stages) {
-        s.residual_ppm = 1e6 * (s.output - line.at(s.input_arcsec_s)) / (line.slope * largest);
+        s.residual_ppm = 1e6 * (s.output - line.at(s.input_arcsec_s)) / (line.of[0] * largest);
         squares += s.residual_ppm * s.residual_ppm;
         table.largest_residual_ppm = std::max(table.largest_residual_ppm, std::abs(s.residual_ppm));
     }
@@ -128,7 +124,7 @@ void take_residuals(const Line& line, double same_rate_ratio, RateTable& table) 
         for (std::size_t j = 0; j < i; ++j) {
             const TableStage &a = table.stages[i], &b = table.stages[j];
             if (std::abs(a.input_arcsec_s - b.input_arcsec_s) > same_rate_ratio * largest) continue;
-            const double apart = (a.output - b.output) / line.slope - (a.input_arcsec_s - b.input_arcsec_s);
+            const double apart = (a.output - b.output) / line.of[0] - (a.input_arcsec_s - b.input_arcsec_s);
             table.hysteresis_arcsec_s = std::max(table.hysteresis_arcsec_s, std::abs(apart));
         }
 }
@@ -141,7 +137,8 @@ void take_far(RateTable& table) {
         const auto line = line_of(others, [](double) { return true; });
         if (!line || line->dof >= many) continue;
         const TableStage& s = table.stages[k];
-        const double variance = line->variance_at(s.input_arcsec_s) + s.output_sigma * s.output_sigma;
+        const double variance =
+            line->variance_by({s.input_arcsec_s, 1.0}) + line->variance + s.output_sigma * s.output_sigma;
         if (std::abs(s.output - line->at(s.input_arcsec_s)) > errors * std::sqrt(variance)) table.far.push_back(k);
     }
 }
@@ -151,8 +148,8 @@ numeric::Estimate asymmetry_of(const std::vector<TableStage>& stages, double slo
     const auto negative = line_of(stages, [](double x) { return x <= 0.0; });
     if (!positive || !negative)
         return numeric::refused("three stages of either sign, zero counting for both, are needed");
-    const double sigma = std::sqrt(positive->slope_variance + negative->slope_variance);
-    return numeric::estimated(1e6 * (positive->slope - negative->slope) / slope,
+    const double sigma = std::sqrt(positive->covariance(0, 0) + negative->covariance(0, 0));
+    return numeric::estimated(1e6 * (positive->of[0] - negative->of[0]) / slope,
                               numeric::widened(1e6 * sigma / std::abs(slope), std::min(positive->dof, negative->dof)));
 }
 
@@ -169,17 +166,15 @@ RateTable rate_table(std::span<const double> input, std::span<const double> outp
             fmt::format("rate table: {} stages of {} samples or more at one rate, 3 or more are needed",
                         table.stages.size(), options.min_samples));
     const auto line = line_of(table.stages, [](double) { return true; });
-    if (!line || line->slope == 0.0)
+    if (!line || line->of[0] == 0.0)
         throw deviations::SeriesError("rate table: all stages have one rate, a scale factor needs two");
-    table.scale_factor = numeric::estimated(line->slope, numeric::widened(std::sqrt(line->slope_variance), line->dof));
-    const double inverse = 1.0 / line->slope;
+    const double slope = line->of[0], inverse = 1.0 / slope;
+    table.scale_factor = numeric::estimated(slope, numeric::widened(std::sqrt(line->covariance(0, 0)), line->dof));
     table.arcsec_per_unit = numeric::estimated(inverse, table.scale_factor.sigma * inverse * inverse);
     // D/K: both are estimated together.
-    const double d = line->offset * inverse;
-    const double variance =
-        inverse * inverse * (line->offset_variance + d * d * line->slope_variance - 2.0 * d * line->covariance);
+    const double d = line->of[1] * inverse, variance = line->variance_by({-d * inverse, inverse});
     table.bias_arcsec_s = numeric::estimated(d, numeric::widened(std::sqrt(std::max(0.0, variance)), line->dof));
-    table.asymmetry_ppm = asymmetry_of(table.stages, line->slope);
+    table.asymmetry_ppm = asymmetry_of(table.stages, slope);
     take_residuals(*line, options.same_rate_ratio, table);
     take_far(table);
     return table;

@@ -49,6 +49,8 @@ constexpr FormerKey others[]{
     {"switching.last_segment", "", "leave it out: the last segment is what the end of the run leaves of it"},
     {"analysis.taus_per_decade", "", "name the times in analysis.taus_s"},
     {"analysis.taus", "log", "name the times in analysis.taus_s"},
+    {"analysis.deviations", "mtotdev", "take \"mdev\" or \"totdev\""},
+    {"analysis.deviations", "htotdev", "take \"ohdev\""},
     {"analysis.total_bias", "", "leave it out: as_computed stands beside the deviation"},
     {"analysis.angles", "", "leave it out: the final angles are analysed"},
     {"analysis.latitude_deg", "",
@@ -62,19 +64,11 @@ constexpr FormerKey others[]{
     {"analysis.table_scale_arcsec_s", "", "take --map table_unit=..."},
 };
 
-// Without blanks about it and the quotes of a text.
-std::string_view bare(std::string_view value) {
-    constexpr std::string_view around = " \t\"'";
-    const auto first = value.find_first_not_of(around);
-    return first == std::string_view::npos ? std::string_view{}
-                                           : value.substr(first, value.find_last_not_of(around) - first + 1);
-}
-
 }  // namespace
 
 std::optional<FormerKey> find_former(std::string_view key, std::string_view value) {
     for (const FormerKey& other : others)
-        if (other.key == key && (other.value.empty() || other.value == bare(value))) return other;
+        if (other.key == key && value.find(other.value) != std::string_view::npos) return other;
     for (const auto& [keys, now] : groups)
         if (const auto found = std::ranges::find(keys, key); found != keys.end()) return FormerKey{*found, "", now};
     return std::nullopt;

@@ -26,8 +26,7 @@ constexpr std::array<std::string_view, 5> motions{"rest", "constant", "sine", "s
 constexpr std::array<std::string_view, 5> fields{"none", "constant", "sine", "steps", "file"};
 constexpr std::array<std::string_view, 2> column_holds{"increment", "rate"};
 
-constexpr std::array<std::string_view, 9> deviations{"adev",  "oadev",  "mdev",    "tdev",   "hdev",
-                                                     "ohdev", "totdev", "mtotdev", "htotdev"};
+constexpr std::array<std::string_view, 7> deviations{"adev", "oadev", "mdev", "tdev", "hdev", "ohdev", "totdev"};
 constexpr std::array<std::string_view, 3> tau_spacings{"octave", "decade", "all"};
 constexpr std::array<std::string_view, 4> shown_rates{"deg/h", "arcsec/s", "deg/s", "rad/s"};
 

@@ -14,32 +14,16 @@
 namespace zlg::deviations {
 namespace {
 
-TermSum single_sum(const RecordView& view, DeviationKind kind, std::int64_t m, int threads) {
-    if (2 * m > view.n_intervals && kind == DeviationKind::totdev) return {};
-    switch (kind) {
-        case DeviationKind::totdev:
-            return total_sum(view, m);
-        case DeviationKind::mtotdev:
-            return mirrored_pieces_sum(view, PieceOf::angle, m, threads);
-        // A piece of three values that has lost its line has one degree of freedom left, and mirroring adds none.
-        case DeviationKind::htotdev:
-            return m == 1 ? difference_sum(view, 3, 1, 0, view.n_intervals)
-                          : mirrored_pieces_sum(view, PieceOf::rate, m, threads);
-        default:
-            return side_by_side_sum(view, difference_order(kind), m);
-    }
-}
-
 std::vector<TermSum> all_sums(const RecordView& view, DeviationKind kind, std::span<const std::int64_t> factors,
                               int threads) {
     if (kind == DeviationKind::oadev || kind == DeviationKind::ohdev)
         return difference_sums(view, difference_order(kind), factors, threads);
-    if (kind == DeviationKind::mdev || kind == DeviationKind::tdev) return averaged_sums(view, factors, threads);
-    // Pieces that are mirrored have threads of their own.
-    const bool is_of_pieces = kind == DeviationKind::mtotdev || kind == DeviationKind::htotdev;
+    if (is_modified(kind)) return averaged_sums(view, factors, threads);
     std::vector<TermSum> sums(factors.size());
-    numeric::in_parallel(sums.size(), is_of_pieces ? 1 : threads,
-                         [&](std::size_t k) { sums[k] = single_sum(view, kind, factors[k], threads); });
+    numeric::in_parallel(sums.size(), threads, [&](std::size_t k) {
+        sums[k] = kind == DeviationKind::totdev ? total_sum(view, factors[k])
+                                                : side_by_side_sum(view, difference_order(kind), factors[k]);
+    });
     return sums;
 }
 
@@ -80,19 +64,6 @@ std::int64_t shortened(DeviationKind kind, std::int64_t m, std::int64_t n_interv
     return kind == DeviationKind::totdev ? std::max(2 * m, shorter) : shorter;
 }
 
-// What the variance as computed is to be divided by.
-double total_bias(TotalBias what, DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals) {
-    switch (what) {
-        case TotalBias::removed:
-            return total_variance_bias(kind, noise, m, n_intervals);
-        case TotalBias::published:
-            return published_total_variance_bias(kind, noise, m, n_intervals);
-        case TotalBias::as_computed:
-            break;
-    }
-    return 1.0;
-}
-
 // Squares of differences to variances: white rate noise gives 2 and 6 times its own.
 double per_square(DeviationKind kind) { return difference_order(kind) == 3 ? 1.0 / 6.0 : 0.5; }
 
@@ -106,8 +77,7 @@ int noise_at(std::int64_t m, DeviationKind kind, const std::vector<NoiseStep>& s
 DeviationCurve curve_of(DeviationKind kind, const SeriesKind& what, std::int64_t n_intervals,
                         const std::vector<MeasuredSum>& sums, const std::vector<NoiseStep>& steps,
                         const DeviationOptions& options) {
-    DeviationCurve curve{
-        .kind = kind, .confidence = options.confidence, .total_bias = options.total_bias, .points = {}};
+    DeviationCurve curve{.kind = kind, .confidence = options.confidence, .points = {}};
     for (const auto& [m, sum, possible] : sums) {
         if (sum.terms < 1 || possible < 1) continue;
         const int noise = noise_at(m, kind, steps, options);
@@ -116,7 +86,7 @@ DeviationCurve curve_of(DeviationKind kind, const SeriesKind& what, std::int64_t
         const double variance = per_square(kind) * rate_scale(what) * sum.sum / static_cast<double>(sum.terms);
         point.as_computed = std::sqrt(variance);
         if (kind == DeviationKind::tdev) point.as_computed *= point.tau_s / std::numbers::sqrt3;
-        point.deviation = point.as_computed / std::sqrt(total_bias(options.total_bias, kind, noise, m, n_intervals));
+        point.deviation = point.as_computed / std::sqrt(total_variance_bias(kind, noise, m, n_intervals));
         const double share = static_cast<double>(sum.terms) / static_cast<double>(possible);
         point.law = variance_law(kind, noise, m, shortened(kind, m, n_intervals, share));
         const auto interval = confidence_interval(point.deviation, point.law, options.confidence);

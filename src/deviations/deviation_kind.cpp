@@ -8,8 +8,7 @@
 namespace zlg::deviations {
 namespace {
 
-constexpr std::array<std::string_view, 9> names{"adev",  "oadev",  "mdev",    "tdev",   "hdev",
-                                                "ohdev", "totdev", "mtotdev", "htotdev"};
+constexpr std::array<std::string_view, 7> names{"adev", "oadev", "mdev", "tdev", "hdev", "ohdev", "totdev"};
 
 }  // namespace
 
@@ -23,18 +22,10 @@ DeviationKind deviation_kind_of(std::string_view name) {
     throw SeriesError(fmt::format("deviation: '{}' is unknown, allowed: {}", name, allowed));
 }
 
-bool is_total(DeviationKind kind) {
-    return kind == DeviationKind::totdev || kind == DeviationKind::mtotdev || kind == DeviationKind::htotdev;
-}
-
-bool is_modified(DeviationKind kind) {
-    return kind == DeviationKind::mdev || kind == DeviationKind::tdev || kind == DeviationKind::mtotdev;
-}
+bool is_modified(DeviationKind kind) { return kind == DeviationKind::mdev || kind == DeviationKind::tdev; }
 
 bool is_side_by_side(DeviationKind kind) { return kind == DeviationKind::adev || kind == DeviationKind::hdev; }
 
-int difference_order(DeviationKind kind) {
-    return kind == DeviationKind::hdev || kind == DeviationKind::ohdev || kind == DeviationKind::htotdev ? 3 : 2;
-}
+int difference_order(DeviationKind kind) { return kind == DeviationKind::hdev || kind == DeviationKind::ohdev ? 3 : 2; }
 
 }  // namespace zlg::deviations

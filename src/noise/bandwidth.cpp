@@ -51,12 +51,11 @@ double half_at(const Eigen::Vector3d& b) {
 
 }  // namespace
 
-Bandwidth find_bandwidth(std::span<const double> rates, double rate_hz, const NoiseTerms& terms, double memory_s,
-                         int threads) {
+Bandwidth find_bandwidth(std::span<const double> rates, double rate_hz, const NoiseTerms& terms, double memory_s) {
     std::size_t piece = 8;
     const double step_hz = 1.0 / (2.0 * pi * memory_s * bins_below);
     while (rate_hz / static_cast<double>(piece) > step_hz && 2 * piece * min_pieces <= rates.size()) piece *= 2;
-    const Spectrum s = welch_spectrum(rates, rate_hz, piece, known_share, threads);
+    const Spectrum s = welch_spectrum(rates, rate_hz, piece, known_share);
     NoiseTerms others = terms;
     others.angle_random_walk_arcsec_sqrt_s = 0.0;
     const double white = terms.angle_random_walk_arcsec_sqrt_s * terms.angle_random_walk_arcsec_sqrt_s;

@@ -21,6 +21,6 @@ struct Bandwidth {
 // memory_s  about the time over which the sensor correlates its white noise.
 // return    NaN: the density does not fall to a half below half the rate.
 [[nodiscard]] Bandwidth find_bandwidth(std::span<const double> rates_arcsec_s, double rate_hz, const NoiseTerms& terms,
-                                       double memory_s, int threads);
+                                       double memory_s);
 
 }  // namespace zlg::noise

@@ -169,12 +169,10 @@ FittedTerm ramp_term(std::span<const double> rates, double rate_hz, const Smooth
 }
 
 // Where the shortest averaging times are not white noise, what cuts it off.
-void take_bandwidth(std::span<const double> rates, double rate_hz, const SmoothFit& smooth, int threads,
-                    NoiseFit& fit) {
+void take_bandwidth(std::span<const double> rates, double rate_hz, const SmoothFit& smooth, NoiseFit& fit) {
     FittedTerm& white = fit.fitted[white_index];
     if (!white.found || smooth.filter_time_s == 0.0) return;
-    const Bandwidth b =
-        find_bandwidth(rates, rate_hz, fit.terms, std::max(smooth.filter_time_s, 1.0 / rate_hz), threads);
+    const Bandwidth b = find_bandwidth(rates, rate_hz, fit.terms, std::max(smooth.filter_time_s, 1.0 / rate_hz));
     white.second = b.hz;
     white.second_sigma = b.sigma_hz;
 }
@@ -304,7 +302,7 @@ NoiseFit fit_noise_in_place(std::vector<double>& rates, double rate_hz, const No
     check_known(rates);
     NoiseFit fit;
     const double step = coarse_step(rates);
-    auto sines = take_out_sinusoids(rates, rate_hz, options.most_sines, options.threads);
+    auto sines = take_out_sinusoids(rates, rate_hz, options.most_sines);
     const HadamardPoints points = hadamard_points(rates, rate_hz, step, options);
     // A saw of a count's height has lines of 2 f counts.
     std::erase_if(sines,
@@ -316,7 +314,7 @@ NoiseFit fit_noise_in_place(std::vector<double>& rates, double rate_hz, const No
     fit.fitted.push_back(ramp_term(rates, rate_hz, smooth));
     if (fit.fitted.back().found) fit.terms.ramp_arcsec_s2 = fit.fitted.back().value;
     fit.fitted.push_back(smooth_term(smooth, markov_index));
-    take_bandwidth(rates, rate_hz, smooth, options.threads, fit);
+    take_bandwidth(rates, rate_hz, smooth, fit);
     take_sinusoids(sines, fit);
     for (FittedTerm& term : fit.fitted) term.read_at_s = read_at(term.kind, term.second);
     take_points(points, smooth, fit);

@@ -60,11 +60,4 @@ KalibrGyro kalibr_gyro(const NoiseTerms& terms, double rate_hz) {
             .update_rate_hz = rate_hz};
 }
 
-NoiseTerms terms_of(const KalibrGyro& gyro) {
-    return {.angle_random_walk_arcsec_sqrt_s = gyro.noise_density_rad_s_sqrt_hz / arcsec_in_rad,
-            .rate_random_walk_arcsec_s_sqrt_s = gyro.random_walk_rad_s2_sqrt_hz / arcsec_in_rad,
-            .markov = {},
-            .sines = {}};
-}
-
 }  // namespace zlg::noise

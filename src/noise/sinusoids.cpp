@@ -222,8 +222,8 @@ void take_sigmas(Sinusoid& s, double level, double known_s, double span_s) {
         std::sqrt(56.2 * two_sided / (amplitude * amplitude * known_s * span_s * span_s)) / (2.0 * pi);
 }
 
-std::optional<Sinusoid> strongest(std::span<const double> rates, double rate_hz, double& step_hz, int threads) {
-    const Spectrum spectrum = welch_spectrum(rates, rate_hz, std::min(rates.size(), longest_piece), min_known, threads);
+std::optional<Sinusoid> strongest(std::span<const double> rates, double rate_hz, double& step_hz) {
+    const Spectrum spectrum = welch_spectrum(rates, rate_hz, std::min(rates.size(), longest_piece), min_known);
     if (spectrum.density.size() < 4 * first_bin) return std::nullopt;
     const Peak peak = highest_peak(spectrum);
     if (!(peak.probability < chance)) return std::nullopt;
@@ -239,12 +239,12 @@ std::optional<Sinusoid> strongest(std::span<const double> rates, double rate_hz,
 
 }  // namespace
 
-std::vector<Sinusoid> take_out_sinusoids(std::span<double> rates, double rate_hz, int most, int threads) {
+std::vector<Sinusoid> take_out_sinusoids(std::span<double> rates, double rate_hz, int most) {
     std::vector<Sinusoid> found;
     double first = 0.0;
     while (most > 0) {
         double step_hz = 0.0;
-        const auto next = strongest(rates, rate_hz, step_hz, threads);
+        const auto next = strongest(rates, rate_hz, step_hz);
         if (!next || next->amplitude_arcsec_s < min_of_first * first) break;
         first = std::max(first, next->amplitude_arcsec_s);
         const auto beside = std::find_if(found.begin(), found.end(), [&](const Sinusoid& s) {

@@ -22,7 +22,6 @@ struct Sinusoid {
 // beside the line as was in it, is no sinusoid and stays.
 //
 // rates_arcsec_s  NaN where missing. Periods of more than an eighth of the record are not looked for.
-[[nodiscard]] std::vector<Sinusoid> take_out_sinusoids(std::span<double> rates_arcsec_s, double rate_hz, int most,
-                                                       int threads = 1);
+[[nodiscard]] std::vector<Sinusoid> take_out_sinusoids(std::span<double> rates_arcsec_s, double rate_hz, int most);
 
 }  // namespace zlg::noise

@@ -116,9 +116,6 @@ Figure sigma_figure(const View& v) {
         f.series.push_back(std::move(left));
     }
     add_terms(v, taus_of(curve), 0.2 * least, f);
-    if (v.presumed)
-        f.series.push_back(law(v, taus_of(curve), v.presumed->name, false, 0.0,
-                               [&v](double tau_s) { return noise::allan_variance(v.presumed->terms, tau_s); }));
     return f;
 }
 

@@ -24,7 +24,7 @@ report::Table curve_table(const View& v, const deviations::DeviationCurve& curve
                         "freedom; last the spectrum of the rate.",
                         deviations::name_of(curve.kind), is_angle ? "arcsec" : v.unit(), 100.0 * curve.confidence),
                     .header = {"tau, s", "n", "deviation", "low", "high", "edf", "noise"}};
-    if (deviations::is_total(curve.kind)) {
+    if (curve.kind == deviations::DeviationKind::totdev) {
         t.caption += " As computed: with the bias of mirroring, which is taken out of the deviation.";
         t.header.emplace_back("as computed");
     }
@@ -34,7 +34,8 @@ report::Table curve_table(const View& v, const deviations::DeviationCurve& curve
         t.rows.push_back({short_number(p.tau_s), fmt::format("{}", p.terms), fmt::format("{:.4g}", shown(p.deviation)),
                           fmt::format("{:.4g}", shown(p.low)), fmt::format("{:.4g}", shown(p.high)),
                           short_number(p.law.edf), fmt::format("f^{}", p.noise)});
-        if (deviations::is_total(curve.kind)) t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
+        if (curve.kind == deviations::DeviationKind::totdev)
+            t.rows.back().push_back(fmt::format("{:.4g}", shown(p.as_computed)));
     }
     return t;
 }
@@ -186,11 +187,6 @@ report::Section earth_section(const AnalysisResult& result) {
         t.rows.push_back({fmt::format("norm of {} axes; the Earth: {:.3f}", line.n_axes, earth_rate_arcsec_s),
                           with_error(line.norm_arcsec_s, line.sigma_arcsec_s)});
     s.tables.push_back(std::move(t));
-    if (!result.presumed) return s;
-    const noise::DataSheet sheet = noise::data_sheet(result.presumed->terms);
-    s.paragraphs.push_back(fmt::format("{} presumes {:.4g} deg/sqrt(h) and {:.4g} deg/h/sqrt(h).",
-                                       result.presumed->name, sheet.angle_random_walk_deg_sqrt_h,
-                                       sheet.rate_random_walk_deg_h_sqrt_h));
     return s;
 }
 
@@ -241,8 +237,7 @@ report::Figure residual_figure(const config::Analysis& config, const calibration
 }
 
 std::vector<report::Figure> axis_figures(const config::Analysis& config, const AxisResult& axis, std::size_t index) {
-    static const std::optional<PresumedNoise> none;
-    const View v{.config = config, .axis = axis, .index = index, .presumed = none};
+    const View v{.config = config, .axis = axis, .index = index};
     std::vector<report::Figure> figures{course_figure(v)};
     if (!axis.curves.empty() && can_be_drawn(axis.curves.front())) figures.push_back(sigma_figure(v));
     if (!axis.modes || axis.modes->segments.size() < 2) return figures;
@@ -258,7 +253,7 @@ report::Page analysis_page(const config::Analysis& config, const AnalysisResult&
         .lead = "Deviations, fitted noise terms, drift by mode and errors of switches of what was recorded."};
     std::vector<std::string> names;
     for (std::size_t k = 0; k < result.axes.size(); ++k) {
-        const View v{.config = config, .axis = result.axes[k], .index = k, .presumed = result.presumed};
+        const View v{.config = config, .axis = result.axes[k], .index = k};
         page.sections.push_back(section_of(v));
         if (v.axis.modes && v.axis.modes->segments.size() > 1) page.sections.push_back(mode_section(v));
         page.sections.push_back(number_section(v));

@@ -2,7 +2,6 @@
 // One axis as the page of an analysis shows it, and its figures.
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,7 +16,6 @@ struct View {
     const config::Analysis& config;
     const AxisResult& axis;
     std::size_t index;
-    const std::optional<PresumedNoise>& presumed;
 
     [[nodiscard]] double shown(double arcsec_s) const { return shown_rate(config.unit, arcsec_s); }
     [[nodiscard]] std::string unit() const { return shown_unit(config.unit); }

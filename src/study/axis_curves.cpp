@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <zlg/config/schema.hpp>
 #include <zlg/deviations/averaging.hpp>
 
 namespace zlg::study {
@@ -13,11 +12,6 @@ namespace {
 
 using deviations::AngleRecord;
 using deviations::DeviationKind;
-
-// mtotdev and htotdev, samples in all pieces: about so many a second, and as many as are computed without being asked
-// for.
-constexpr double piece_samples_a_second = 1e8;
-constexpr double max_piece_samples = 1e10;
 
 DeviationKind kind_of(config::Deviation d) { return deviations::deviation_kinds[static_cast<std::size_t>(d)]; }
 
@@ -33,27 +27,12 @@ std::vector<std::int64_t> spaced_factors(const config::Analysis& c, std::int64_t
     return deviations::octave_factors(largest);
 }
 
-// Pieces of 3m samples begin at every sample: what they cost grows with the square of the length.
-void refuse_long_work(DeviationKind kind, const std::vector<std::int64_t>& factors, std::int64_t n) {
-    if (kind != DeviationKind::mtotdev && kind != DeviationKind::htotdev) return;
-    double samples = 0.0;
-    for (const std::int64_t m : factors) samples += static_cast<double>(m) * static_cast<double>(n - 3 * m + 1);
-    if (samples <= max_piece_samples) return;
-    throw config::ConfigError(fmt::format(
-        "analysis.deviations = \"{}\": of {} samples at {} averaging times it takes about {:.0f} min; say which times, "
-        "analysis.taus_s, or take \"{}\"",
-        deviations::name_of(kind), n, factors.size(), samples / piece_samples_a_second / 60.0,
-        kind == DeviationKind::mtotdev ? "mdev" : "ohdev"));
-}
-
 std::vector<std::int64_t> factors_of(const config::Analysis& c, DeviationKind kind, std::int64_t n, double rate_hz) {
     const std::int64_t largest = deviations::largest_factor(kind, n);
     if (largest < 1)
         throw deviations::SeriesError(fmt::format("{} samples are too few for {}", n, deviations::name_of(kind)));
     if (!c.taus_s.empty()) return deviations::nearest_factors(c.taus_s, rate_hz, largest);
-    const auto factors = spaced_factors(c, largest);
-    refuse_long_work(kind, factors, n);
-    return factors;
+    return spaced_factors(c, largest);
 }
 
 bool is_allan(DeviationKind kind) {

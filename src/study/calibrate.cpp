@@ -32,13 +32,9 @@ struct Lab {
 };
 
 void check(const CalibrationTask& task) {
-    for (const double rate_arcsec_s : task.rate_arcsec_s)
-        if (!(std::abs(rate_arcsec_s) <= max_rate_arcsec_s))
-            throw config::ConfigError{
-                fmt::format("{} {}: allowed is -1e9..1e9, more than any gyro turns", task.rate_name, rate_arcsec_s)};
-    if (task.rate_arcsec_s.size() > 1 && task.rate_arcsec_s.size() != task.logs.size())
-        throw config::ConfigError{fmt::format("{}: {} rates of {} logs; allowed is one for all or one for each",
-                                              task.rate_name, task.rate_arcsec_s.size(), task.logs.size())};
+    if (!(std::abs(task.rate_arcsec_s) <= max_rate_arcsec_s))
+        throw config::ConfigError{
+            fmt::format("{} {}: allowed is -1e9..1e9, more than any gyro turns", task.rate_name, task.rate_arcsec_s)};
     std::error_code ignored;
     for (std::size_t k = 1; k < task.logs.size(); ++k)
         for (std::size_t j = 0; j < k; ++j)
@@ -141,8 +137,6 @@ calibration::Presumed presumed(const CalibrationTask& task, const Lab& lab) {
     return {.scale_arcsec = of_logs.gyro.scale_arcsec,
             .reference_temperature_c = of_logs.gyro.reference_temperature_c,
             .rate_arcsec_s = task.rate_arcsec_s,
-            .bias_edge_s = of_logs.gyro.bias_edge_s,
-            .counts_per_turn = static_cast<double>(counts_per_turn(of_logs.laser.quadrature)),
             .read_by_slope = read_by_one_slope(lab),
             .bias_temperature_coefficient_per_c = task.said.gyro.bias_temperature_coefficient_per_c,
             .half_wave_temperature_coefficient_per_c = task.said.piezo.half_wave_temperature_coefficient_per_c,

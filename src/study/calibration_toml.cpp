@@ -11,9 +11,6 @@ namespace {
 
 using calibration::Constant;
 
-// What the compensation is told with its sigma.
-constexpr std::string_view lock_in_key = "compensation.lock_in_hz";
-
 constexpr std::string_view chi_key = "gyro.bias_chi";
 
 std::string with_unit(const std::string& text, const std::string& unit) {
@@ -109,11 +106,8 @@ std::string calibration_toml(const CalibrationResult& result) {
                 : fmt::format("bias_temperature_table = {:::.8g}\n", table.knots) + list_line("# +-", table.sigma, "");
     if (!result.reference_warning.empty()) text += fmt::format("# warning: {}\n", result.reference_warning);
     text += "\n[perimeter]\n" + curve_section(result);
-    for (const char* section : {"piezo", "field", "drift", "compensation"})
+    for (const char* section : {"piezo", "field", "drift"})
         text += fmt::format("\n[{}]\n{}", section, toml_section(result, section));
-    for (const Constant& c : result.calibration.constants)
-        if (c.key == lock_in_key && c.estimate.determined)
-            text += fmt::format("lock_in_sigma_hz = {:.3g}\n", c.estimate.sigma);
     return text;
 }
 

@@ -30,7 +30,6 @@ TEST(HalfWaveLaw, finds_the_voltage_and_its_law) {
     EXPECT_LT(std::abs(errors_off(law.half_wave_v, 43.0)), 4.0);
     EXPECT_LT(std::abs(errors_off(law.temperature_coefficient_per_c, 2e-3)), 4.0);
     EXPECT_LT(law.half_wave_v.sigma, 0.005);
-    EXPECT_NEAR(law.at_v(25.0), 43.0 * 1.01, 0.02);
     EXPECT_EQ(law.n_switches, 59);
 }
 

@@ -85,10 +85,9 @@ class Analyze(CliTest):
         self.assertIn("tdev, arcsec; intervals of 95 %", result.stdout)
         axis = self.json_of(path, *TEXT, "--set", "analysis.taus_s=[0.1, 1, 10]")["axes"][0]
         self.assertEqual([point["tau_s"] for point in axis["deviations"][0]["points"]], [0.1, 1.0, 10.0])
-        said = ["--set", "analysis.deviations=mtotdev", "--set", "analysis.taus_s=[1]"]
+        said = ["--set", "analysis.deviations=totdev", "--set", "analysis.taus_s=[1]"]
         (curve,) = self.json_of(path, *TEXT, *said)["axes"][0]["deviations"]
-        self.assertEqual(curve["total_bias"], "removed")
-        self.assertNotEqual(curve["points"][0]["deviation"], curve["points"][0]["as_computed"])
+        self.assertIn("as_computed", curve["points"][0])
 
     def test_a_run_gives_its_drifts_back(self):
         out = self.folder / "run"
@@ -125,7 +124,7 @@ class Analyze(CliTest):
         self.assertEqual(again.returncode, 3, again.stderr)
         self.assertEqual(run("analyze", self.folder / "rates.txt", *TEXT, "--out", page, "--force").returncode, 0)
 
-    def test_kalibr_in_and_out(self):
+    def test_noise_for_kalibr(self):
         path = self.write("rates.txt", lines(white(5000, 3.0)))
         yaml = self.folder / "imu.yaml"
         result = run("analyze", path, *TEXT, "--imu-yaml", yaml)
@@ -133,14 +132,6 @@ class Analyze(CliTest):
         values = dict(line.split("#")[0].split(": ") for line in yaml.read_text().splitlines() if not line.startswith("#"))
         self.assertAlmostEqual(float(values["gyroscope_noise_density"]) * 648000.0 / math.pi, 3.0 / math.sqrt(10.0), delta=0.05)
         self.assertEqual(float(values["update_rate"]), 10.0)
-        compared = run("analyze", path, *TEXT, "--compare", yaml)
-        self.assertEqual(compared.returncode, 0, compared.stderr)
-        self.assertIn("imu.yaml presumes 0.01", compared.stdout)
-        presumed = self.json_of(path, *TEXT, "--compare", yaml)["presumed"]
-        self.assertEqual(presumed["name"], "imu.yaml")
-        self.assertAlmostEqual(presumed["angle_random_walk_arcsec_sqrt_s"], 3.0 / math.sqrt(10.0), delta=0.05)
-        self.assertAlmostEqual(presumed["data_sheet"]["angle_random_walk_deg_sqrt_h"], presumed["angle_random_walk_arcsec_sqrt_s"] / 60.0)
-        self.refusal(3, path, *TEXT, "--compare", path)
 
     def test_both_files_are_written_or_neither(self):
         path, page, yaml = self.write("rates.txt", lines(white(2000, 3.0))), self.folder / "new.html", self.folder / "there.yaml"
@@ -156,7 +147,6 @@ class Analyze(CliTest):
             self.assertIn("--imu-yaml", self.refusal(2, path, *TEXT, "--out", page, "--imu-yaml", other, "--force"))
         self.assertEqual(run("analyze", path, *TEXT, "--imu-yaml", yaml).returncode, 0)
         text = yaml.read_text()
-        self.assertIn(f"--imu-yaml {yaml}: is the input", self.refusal(2, path, *TEXT, "--compare", yaml, "--imu-yaml", yaml, "--force"))
         self.assertIn(f"--imu-yaml {path}: is the input", self.refusal(2, path, *TEXT, "--imu-yaml", path, "--force"))
         self.assertEqual(yaml.read_text(), text)
 

@@ -94,12 +94,12 @@ class FormerVersions(CliTest):
 
     def test_angles_of_that_version_are_analysed(self):
         angles = self.write("angles.csv", "\n".join(
-            ["# gyro.tick_s = 0.005", '# gyro.coil_current = "record"', '# switching.schedule = "growing"',
+            ["# gyro.tick_s = 0.005", '# gyro.coil_current = "record"', '# switching.schedule = "growing"', '# analysis.deviations = ["oadev", "htotdev"]',
              "tick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags"]
             + [f"{k},{0.005 * k},{k % 3},{k % 3},1,1,0" for k in range(100)]) + "\n")
         for verb in ("inspect", "analyze"):
             result = self.succeed(verb, angles)
-            self.assertIn('stepped over: gyro.coil_current, switching.schedule = "growing"', result.stderr)
+            self.assertIn('stepped over: gyro.coil_current, switching.schedule = "growing", analysis.deviations = "htotdev"', result.stderr)
 
     def test_a_copy_is_one_of_that_version_still(self):
         for name in ("old_keys.csv", "raw_light.h5"):
@@ -112,6 +112,7 @@ class FormerVersions(CliTest):
         log = self.log("raw.csv")
         for key, value, takes in (("gyro.coil_current", "record", "leave it out"), ("switching.after_step", "wait", "leave it out"),
                                   ("switching.schedule", "growing", 'switching.schedule = "measured"'),
+                                  ("analysis.deviations", "mtotdev", "totdev"),
                                   ("compensation.bridge", "optimal", 'compensation.bridge = "auto"'),
                                   ("compensation.prior", "learnt", "leave it out"), ("compensation.prior_line_hz", "20", "leave it out")):
             section, name = key.split(".")

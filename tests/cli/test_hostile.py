@@ -82,12 +82,6 @@ class Endless(Hostile):
                             preexec_fn=self.limited)
         self.assertEqual(os.listdir(self.folder), [])
 
-    def test_a_noise_to_compare_with(self):
-        log = self.log()
-        self.succeed("process", log, "--out", self.folder / "angles.csv")
-        self.refuse_quickly(3, "analyze", self.folder / "angles.csv", "--compare", "/dev/zero", says=["/dev/zero"],
-                            preexec_fn=self.limited)
-
     def feed(self, path, text):
         def write():
             try:
@@ -211,9 +205,6 @@ class ControlCharacters(Hostile):
         motion = self.write("motion", f"1\n{self.BAD}\n")
         self.refuse_shown("simulate", "--set", "motion.kind=file", "--set", f"motion.path={motion}", "--duration", 1,
                           "--out", self.folder / "a.csv")
-        self.succeed("process", self.log(), "--out", self.folder / "angles.csv")
-        self.refuse_shown("analyze", self.folder / "angles.csv", "--compare",
-                          self.write("a.yaml", f"gyroscope_noise_density: {self.BAD}\n"))
         result = subprocess.run([str(ZLG), "inspect", self.write("b.csv", f"# gyro.tick_s = {self.BAD}\n{head}")],
                                 capture_output=True)
         self.assertEqual(result.returncode, 1)

@@ -41,7 +41,6 @@ TEST(Averaging, is_longest_where_one_term_is_left) {
     EXPECT_EQ(largest_factor(DeviationKind::ohdev, 20), 6);
     EXPECT_EQ(largest_factor(DeviationKind::mdev, 20), 7);  // 21 angles
     EXPECT_EQ(largest_factor(DeviationKind::mdev, 19), 6);
-    EXPECT_EQ(largest_factor(DeviationKind::htotdev, 20), 6);
     EXPECT_EQ(largest_factor(DeviationKind::totdev, 21), 10);
 }
 

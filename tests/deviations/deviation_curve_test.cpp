@@ -6,12 +6,6 @@
 
 namespace zlg::deviations::deviation_curve_test {
 
-TEST(DeviationCurve, a_bias_is_known_by_its_name) {
-    for (const TotalBias bias : {TotalBias::removed, TotalBias::published, TotalBias::as_computed})
-        EXPECT_EQ(total_bias_of(name_of(bias)), bias);
-    EXPECT_THROW((void)total_bias_of("none"), SeriesError);
-}
-
 TEST(DeviationCurve, an_option_out_of_its_range_is_refused) {
     EXPECT_NO_THROW(check(DeviationOptions{}));
     for (const double bad : {0.0, 1.0, -0.1, std::numeric_limits<double>::quiet_NaN()})

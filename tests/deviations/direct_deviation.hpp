@@ -81,51 +81,6 @@ private:
     std::int64_t terms_ = 0;
 };
 
-// Mean square of the second difference of m-means over all 6m starts in a piece of 3m values, freed of its line and
-// continued evenly to 9m. No value: NaN.
-inline Real mirrored_piece(std::vector<Real> z, std::int64_t m) {
-    const auto length = static_cast<std::size_t>(3 * m), half = length / 2;
-    Real early = 0, late = 0;
-    for (std::size_t k = 0; k < half; ++k) {
-        early += z[k] / static_cast<Real>(half);
-        late += z[length - 1 - k] / static_cast<Real>(half);
-    }
-    const Real slope = (late - early) / static_cast<Real>(length - half);
-    for (std::size_t k = 0; k < length; ++k) z[k] -= slope * static_cast<Real>(k);
-    std::vector<Real> nine(z.rbegin(), z.rend());
-    nine.insert(nine.end(), z.begin(), z.end());
-    nine.insert(nine.end(), z.rbegin(), z.rend());
-    const auto w = static_cast<std::size_t>(m);
-    std::vector<Real> mean(nine.size() - w + 1);
-    for (std::size_t s = 0; s < mean.size(); ++s)
-        for (std::size_t k = 0; k < w; ++k) mean[s] += nine[s + k] / static_cast<Real>(m);
-    Real sum = 0;
-    for (std::size_t s = 0; s < 2 * length; ++s) {
-        const Real d = mean[s + 2 * w] - 2 * mean[s + w] + mean[s];
-        sum += d * d / static_cast<Real>(2 * length);
-    }
-    return sum;
-}
-
-// mtotdev without bias correction: pieces of 3m angles; htotdev: of 3m increments.
-inline Result mirrored_pieces(const Increments& y, std::int64_t m, bool of_angle) {
-    Accumulator all(1);
-    for (std::int64_t begin = 0; begin + 3 * m - (of_angle ? 1 : 0) <= y.n(); ++begin) {
-        std::vector<Real> z;
-        Real angle = 0;
-        bool known = true;
-        for (std::int64_t k = 0; k < 3 * m; ++k) {
-            if (of_angle) z.push_back(angle);
-            if (of_angle && k == 3 * m - 1) break;
-            known = known && !std::isnan(y.at(begin + k));
-            angle += static_cast<Real>(y.at(begin + k));
-            if (!of_angle) z.push_back(static_cast<Real>(y.at(begin + k)));
-        }
-        if (known) all.add(mirrored_piece(z, m) / (of_angle ? 2 * static_cast<Real>(m) * static_cast<Real>(m) : 6));
-    }
-    return all.result();
-}
-
 // step  between the starts of overlapping terms.
 inline Result variance(DeviationKind kind, const Increments& y, std::int64_t m, Real least_known_ratio,
                        std::int64_t step = 1) {
@@ -150,10 +105,6 @@ inline Result variance(DeviationKind kind, const Increments& y, std::int64_t m, 
         case DeviationKind::totdev:
             for (std::int64_t i = 1; i < n; ++i) all.two(mean_from(y, i - m, m), mean_from(y, i, m));
             break;
-        case DeviationKind::mtotdev:
-            return mirrored_pieces(y, m, true);
-        case DeviationKind::htotdev:
-            return m == 1 ? variance(DeviationKind::ohdev, y, 1, 1) : mirrored_pieces(y, m, false);
     }
     return all.result();
 }

@@ -11,9 +11,7 @@ namespace zlg::deviations {
 
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-inline constexpr std::array all_kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
-                                      DeviationKind::tdev,   DeviationKind::hdev,    DeviationKind::ohdev,
-                                      DeviationKind::totdev, DeviationKind::mtotdev, DeviationKind::htotdev};
+inline constexpr auto all_kinds = deviation_kinds;
 
 inline AngleRecord record_of(const std::vector<double>& values, DataKind kind = DataKind::rate, double rate_hz = 1.0) {
     return AngleRecord(Series{.what = {kind, Unit::one, rate_hz}, .values = values});

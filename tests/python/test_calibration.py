@@ -42,13 +42,13 @@ def said_by_program(*arguments):
 
 
 @pytest.mark.skipif(not PROGRAM.exists(), reason="the program was not built")
-@pytest.mark.parametrize("rates", [[], [3.0], [3.0, -4.0]])
-def test_the_same_constants_as_the_program(logs, files, rates, tmp_path):
+@pytest.mark.parametrize("rate", [0.0, 3.0])
+def test_the_same_constants_as_the_program(logs, files, rate, tmp_path):
     options = ["--set", "gyro.reference_temperature_c=25", "--out", tmp_path / "theirs.toml"]
-    options += ["--rate-arcsec-s", ",".join(map(str, rates))] if rates else []
+    options += ["--rate-arcsec-s", str(rate)] if rate else []
     theirs = json.loads(said_by_program(*files, *options, "--json"))
     config = zlg.Config.of("gyro.reference_temperature_c=25")
-    ours = zlg.calibrate(files, config, rate_arcsec_s=rates or 0.0)
+    ours = zlg.calibrate(files, config, rate_arcsec_s=rate)
     assert {c.key: {"value": c.value, "sigma": c.sigma, "unit": c.unit} for c in ours.constants} == theirs["constants"]
     assert ours.not_determined == theirs["not_determined"]
     assert {g.name: {"value": g.value, "meaning": g.meaning} for g in ours.goodness} == theirs["goodness"]
@@ -59,7 +59,7 @@ def test_the_same_constants_as_the_program(logs, files, rates, tmp_path):
     assert ours.reference_temperature_c == theirs["reference_temperature_c"] == 25.0
     ours.write(tmp_path / "ours.toml")
     assert (tmp_path / "ours.toml").read_text() == (tmp_path / "theirs.toml").read_text() == ours.to_toml()
-    in_memory = zlg.calibrate(logs, config, rate_arcsec_s=rates or 0.0)
+    in_memory = zlg.calibrate(logs, config, rate_arcsec_s=rate)
     assert in_memory.to_toml() == ours.to_toml()
 
 
@@ -89,8 +89,6 @@ def test_a_reference_from_afar_is_a_warning(logs):
 
 
 def test_refusals_say_what_where_and_what_is_allowed(logs, files, tmp_path):
-    with pytest.raises(zlg.ConfigError, match="rate_arcsec_s: 3 rates of 2 logs; allowed is one for all or one for each"):
-        zlg.calibrate(logs, rate_arcsec_s=[1.0, 2.0, 3.0])
     with pytest.raises(zlg.ConfigError, match="rate_arcsec_s nan: allowed is -1e9..1e9"):
         zlg.calibrate(logs, rate_arcsec_s=float("nan"))
     with pytest.raises(zlg.ConfigError, match="a.h5: is named twice"):

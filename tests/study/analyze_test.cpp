@@ -198,23 +198,6 @@ TEST(Analyze, a_missing_angle_costs_three_differences_at_every_averaging) {
     }
 }
 
-TEST(Analyze, what_would_take_many_minutes_is_refused_with_its_cost) {
-    const auto refusal = [](config::Analysis c, std::size_t n) {
-        return test::refusal_by<config::ConfigError>(
-            [&] { (void)study::analyze_axis({.config = std::move(c)}, white(n, 0.0, 1.0, 15)); });
-    };
-    for (const auto kind : {config::Deviation::mtotdev, config::Deviation::htotdev}) {
-        const std::string line = refusal(asking({kind}), 700000);
-        EXPECT_NE(line.find(" min; say which times, analysis.taus_s"), std::string::npos) << line;
-    }
-    config::Analysis all = asking({config::Deviation::mtotdev});
-    all.taus = config::Taus::all;
-    EXPECT_NE(refusal(all, 20000).find(" min"), std::string::npos);
-    config::Analysis one = asking({config::Deviation::htotdev});
-    one.taus_s = {0.1};
-    EXPECT_EQ(refusal(one, 700000), "");
-}
-
 TEST(Analyze, a_switched_gyro_without_noise_has_no_terms_and_the_reason) {
     study::AxisRecord axis = white(20000, 0.0, 0.0, 16);
     for (std::size_t k = 0; k < axis.rates_arcsec_s.size(); ++k) {

@@ -62,7 +62,7 @@ calibration::Calibration calibrated(const config::Config& c) {
     calibration::LabReader reader{"twin", c.gyro.tick_s};
     for (std::int64_t h = 0; h < std::llround(2.0 * log_s / c.gyro.tick_s); ++h) reader.take(loop.advance().record);
     const std::vector<calibration::LabLog> logs{reader.finish()};
-    calibration::Presumed presumed{.rate_arcsec_s = {rate_arcsec_s}};
+    calibration::Presumed presumed{.rate_arcsec_s = rate_arcsec_s};
     if (c.field.kind != config::FieldKind::none)
         presumed.field.of_logs = {[field = c.field](double time_s) { return twin::field_g(field, time_s); }};
     return calibration::calibrate(logs, presumed);

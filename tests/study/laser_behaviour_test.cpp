@@ -221,7 +221,7 @@ calibration::Calibration calibration(double rate_arcsec_s, int n_halves) {
     calibration::LabReader reader{"laboratory", c.gyro.tick_s};
     for (int h = 0; h < n_halves; ++h) reader.take(loop.advance().record);
     const std::vector<calibration::LabLog> logs{reader.finish()};
-    return calibration::calibrate(logs, {.rate_arcsec_s = {rate_arcsec_s}});
+    return calibration::calibrate(logs, {.rate_arcsec_s = rate_arcsec_s});
 }
 
 // Turned slowly, its counter does not repeat itself.

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,13 +26,11 @@ namespace {
 struct AnalyzeOptions : Options {
     std::vector<std::string> files;
     std::string imu_yaml;
-    std::string compare;
 };
 
 void check_output(const AnalyzeOptions& options, const std::string& output, const char* option) {
     if (output.empty()) return;
     for (const std::string& file : options.files) refuse_own_input(file, output, option);
-    if (!options.compare.empty()) refuse_own_input(options.compare, output, option);
 }
 
 void check_usage(const AnalyzeOptions& options) {
@@ -46,12 +43,6 @@ void check_usage(const AnalyzeOptions& options) {
     if (!options.imu_yaml.empty()) refuse_same_output(options.imu_yaml, options.out, "--imu-yaml");
 }
 
-std::optional<study::PresumedNoise> presumed(const AnalyzeOptions& options) {
-    if (options.compare.empty()) return std::nullopt;
-    return study::PresumedNoise{.name = name_of_file(options.compare),
-                                .terms = noise::terms_of(noise::read_imu_yaml(options.compare))};
-}
-
 void analyze(const AnalyzeOptions& options) {
     check_usage(options);
     AnalysisInput input = read_analysis_input(options, options.files);
@@ -60,8 +51,7 @@ void analyze(const AnalyzeOptions& options) {
                                    .threads = options.threads,
                                    .with_page = !options.out.empty(),
                                    .with_mode_curves = options.json || !options.out.empty()};
-    study::AnalysisResult result{
-        .axes = {}, .earth = {}, .presumed = presumed(options), .tables = std::move(input.tables)};
+    study::AnalysisResult result{.axes = {}, .earth = {}, .tables = std::move(input.tables)};
     Progress progress;
     const auto n = static_cast<double>(input.axes.size());
     for (study::AxisRecord& axis : input.axes) {
@@ -72,7 +62,7 @@ void analyze(const AnalyzeOptions& options) {
     if (!options.out.empty()) {
         std::vector<std::string> files;
         for (const std::string& file : options.files) files.push_back(file_facts(file));
-        for (const std::string& other : {options.mapping_path, options.config_path, options.compare})
+        for (const std::string& other : {options.mapping_path, options.config_path})
             if (!other.empty()) files.push_back(file_facts(other));
         result.made = study::how_made(typed_command(), files, mapping_of(options).toml(), input.config);
     }
@@ -101,8 +91,6 @@ void add_analyze(CLI::App& program) {
         ->required();
     verb->add_option("--threads", options->threads, "1..64 (2)")->check(CLI::Range(1, 64).description(""));
     verb->add_option("--imu-yaml", options->imu_yaml, "write the noise as Kalibr's imu.yaml");
-    verb->add_option("--compare", options->compare,
-                     "an imu.yaml whose noise is printed, and drawn by --out, beside the measured one");
     add_mapping_options(*verb, *options);
     add_strict_option(*verb, *options);
     add_config_options(*verb, *options);

@@ -123,7 +123,7 @@ json calibration_json(const study::CalibrationResult& result) {
 
 struct CalibrateOptions : Options {
     std::vector<std::string> raws;
-    std::vector<double> rate_arcsec_s;
+    double rate_arcsec_s = 0.0;
     bool from_laser = false;
 };
 
@@ -174,12 +174,7 @@ void add_calibrate(CLI::App& program) {
         "raw logs of one gyro, at rest or at a known rate, or files of other programs with counts (zlg import "
         "says what one of those is)");
     verb->add_flag("--from-laser", options->from_laser, "derive bias, chi and discriminator from [laser] instead");
-    verb->add_option(
-            "--rate-arcsec-s", options->rate_arcsec_s,
-            "known rate of rotation, arcsec/s; one for all logs, or one for each in their order, with commas between")
-        ->delimiter(',')
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb->add_option("--rate-arcsec-s", options->rate_arcsec_s, "known rate of rotation, arcsec/s");
     add_mapping_options(*verb, *options);
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);

@@ -1,7 +1,6 @@
 #include <zlg/deviations/deviation_confidence.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <compare>
 #include <cstdlib>
@@ -137,12 +136,9 @@ double quantile_by_moments(const VarianceLaw& law, double probability) {
     return shifted > 0.0 ? std::pow(shifted, weight) * std::pow(unshifted, 1.0 - weight) : unshifted;
 }
 
-// htotdev of single samples is ohdev.
-bool is_hadamard_of_one(DeviationKind kind, std::int64_t m) { return kind == DeviationKind::htotdev && m == 1; }
-
 VarianceLaw law_of_all(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals) {
-    if (!is_total(kind) || is_hadamard_of_one(kind, m)) return law_of_differences(kind, noise, m, n_intervals);
-    return span_of(kind, m) > n_intervals ? VarianceLaw{} : total_law(kind, noise, m, n_intervals);
+    if (kind != DeviationKind::totdev) return law_of_differences(kind, noise, m, n_intervals);
+    return span_of(kind, m) > n_intervals ? VarianceLaw{} : total_law(noise, m, n_intervals);
 }
 
 // Beyond 64 samples a law depends on m only through T/tau, but for white and flicker noise of the angle, which depend
@@ -224,25 +220,7 @@ Interval confidence_interval(double deviation, const VarianceLaw& law, double co
 }
 
 double total_variance_bias(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals) {
-    if (!is_total(kind) || is_hadamard_of_one(kind, m)) return 1.0;
-    return exact_total_bias(kind, clamped(kind, noise), m, n_intervals);
-}
-
-double published_total_variance_bias(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals) {
-    constexpr std::array<double, 3> of_total{0.0, 0.481, 0.750};
-    constexpr std::array<double, 5> of_modified{0.94, 0.83, 0.73, 0.70, 0.69};
-    constexpr std::array<double, 5> of_hadamard{0.995, 0.851, 0.771, 0.717, 0.679};
-    switch (kind) {
-        case DeviationKind::totdev:
-            return 1.0 - of_total[static_cast<std::size_t>(-std::clamp(noise, -2, 0))] * static_cast<double>(m) /
-                             static_cast<double>(n_intervals);
-        case DeviationKind::mtotdev:
-            return of_modified[static_cast<std::size_t>(2 - std::clamp(noise, -2, 2))];
-        case DeviationKind::htotdev:
-            return m > 1 ? of_hadamard[static_cast<std::size_t>(-std::clamp(noise, -4, 0))] : 1.0;
-        default:
-            return 1.0;
-    }
+    return kind == DeviationKind::totdev ? total_bias(clamped(kind, noise), m, n_intervals) : 1.0;
 }
 
 }  // namespace zlg::deviations

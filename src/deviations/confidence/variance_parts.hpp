@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <zlg/deviations/deviation_kind.hpp>
 #include <zlg/deviations/variance_law.hpp>
 
 namespace zlg::deviations {
@@ -60,13 +59,12 @@ struct Tails {
 // x with that much below, 0 < below < 1, and above = 1 - below, given for its digits.
 [[nodiscard]] double quantile(std::span<const ChiSquarePart> parts, const Tails& probability);
 
-// The total variances as quadratic forms of the record's second differences, and what follows: bias and law.
-//
-// Expectation of the total variance over that of the variance without mirroring, for rate noise f^noise.
-[[nodiscard]] double exact_total_bias(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals);
+// The total variance as a quadratic form of the angle, and what follows: its expectation over that of the variance
+// without mirroring, and its law, for rate noise f^noise. Of a record of which m is at most a half.
+[[nodiscard]] double total_bias(int noise, std::int64_t m, std::int64_t n_intervals);
 
-// Of a record of which m is at most a half (totdev) or a third. Up to 14 averaging times of starts with parts; beyond,
-// degrees of freedom and skewness, which grow evenly with the length.
-[[nodiscard]] VarianceLaw total_law(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals);
+// Up to 14 averaging times between the ends with parts; beyond, degrees of freedom and skewness, which grow evenly with
+// the length.
+[[nodiscard]] VarianceLaw total_law(int noise, std::int64_t m, std::int64_t n_intervals);
 
 }  // namespace zlg::deviations

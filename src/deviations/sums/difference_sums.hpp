@@ -60,16 +60,8 @@ struct RecordView {
 // Terms begin .. end-1 of one averaging time.
 [[nodiscard]] TermSum averaged_sum(const RecordView& view, std::int64_t m, std::int64_t begin, std::int64_t end);
 
-// Mean squares over records, or pieces of them, that are continued by mirroring.
-//
 // Second differences about every border but the first and the last; the angle is doubly reflected: the rate goes on
-// backwards at both ends.
+// backwards at both ends. Of more than half the record there is none.
 [[nodiscard]] TermSum total_sum(const RecordView& view, std::int64_t m);
-
-// Pieces of 3m values, freed of the line through the means of their halves and mirrored at both ends: mean over the 6m
-// starts of the squared second difference of means over m. Values are the angle (mtotdev; results of a rate, so divided
-// by m^2) or the rate (htotdev). Pieces with a missing value are left out.
-enum class PieceOf { angle, rate };
-[[nodiscard]] TermSum mirrored_pieces_sum(const RecordView& view, PieceOf what, std::int64_t m, int threads);
 
 }  // namespace zlg::deviations

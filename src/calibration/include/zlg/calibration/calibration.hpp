@@ -22,9 +22,7 @@ struct KnownFields {
 struct Presumed {
     double scale_arcsec = 3.263;
     double reference_temperature_c = 20.0;
-    std::vector<double> rate_arcsec_s = {};           // at which the gyro was turned: of all logs, or of each; empty: 0
-    double bias_edge_s = 50e-6;                       // duration of a reversal of the bias
-    double counts_per_turn = 1.0;                     // of the beat
+    double rate_arcsec_s = 0.0;                       // at which the gyro was turned
     bool read_by_slope = true;                        // all detunings were read by one and the same slope
     double bias_temperature_coefficient_per_c = 0.0;  // used where the logs hold a single temperature
     double half_wave_temperature_coefficient_per_c = 0.0;

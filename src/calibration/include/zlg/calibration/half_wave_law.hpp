@@ -18,12 +18,8 @@ namespace zlg::calibration {
 struct HalfWaveLaw {
     numeric::Estimate half_wave_v;  // at the reference temperature
     numeric::Estimate temperature_coefficient_per_c;
-    double coefficient_taken_per_c = 0.0;
-    double reference_temperature_c = 20.0;
     std::int64_t n_switches = 0;
     double scatter_v = 0.0;  // rms of one switch about the law
-
-    [[nodiscard]] double at_v(double temperature_c) const;
 };
 
 // presumed_per_c  the coefficient where the data determine none.

@@ -38,7 +38,7 @@ using Photodiodes = twin::PhotodiodesConfig;
 
 enum class MotionKind { rest, constant, sine, sum, file };
 enum class ColumnHolds { increment, rate };
-enum class Deviation { adev, oadev, mdev, tdev, hdev, ohdev, totdev, mtotdev, htotdev };
+enum class Deviation { adev, oadev, mdev, tdev, hdev, ohdev, totdev };
 enum class Taus { octave, decade, all };
 enum class ShownRate { deg_h, arcsec_s, deg_s, rad_s };
 enum class TextSeparator { automatic, space, tab, semicolon, comma, bar };

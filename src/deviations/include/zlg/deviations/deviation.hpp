@@ -16,7 +16,7 @@ namespace zlg::deviations {
 //   known ones. Each difference is scaled by what fewer samples add: white noise of the rate keeps its expectation, in
 //   adev, oadev, hdev and ohdev exactly, in mdev, tdev and at the mirrored ends of totdev, where the known samples
 //   weigh differently, to a few percent at a ratio of 0.9; other noise is changed by less than the missing share. mdev:
-//   means weighted as without gaps. phase: only known angles are used. mtotdev, htotdev: only pieces without a gap.
+//   means weighted as without gaps. phase: only known angles are used.
 //
 // accuracy  1e-12 of the definition, relative, also of a rate that walks at random
 // cost      10^7 samples, 93 taus: see docs/reliability.md

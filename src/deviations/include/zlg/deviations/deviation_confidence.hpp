@@ -20,8 +20,8 @@ struct Interval {
 //         and for Hadamard deviations -3 and -4 (others: -2 is taken).
 // n_intervals  without gaps.
 // source  the covariances of all pairs of terms, and for the skewness of all triples, as in C. Greenhall, W. Riley,
-//         "Uncertainty of stability variances based on finite differences", PTTI 2003; with parts, and for the total
-//         deviations, the eigenvalues of that covariance.
+//         "Uncertainty of stability variances based on finite differences", PTTI 2003; with parts, and for totdev,
+//         the eigenvalues of that covariance.
 [[nodiscard]] VarianceLaw variance_law(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals);
 
 // Of intervals: beyond it the quantiles of the laws are no numbers.
@@ -35,12 +35,8 @@ void check_confidence(double confidence);
 // errors  as check_confidence.
 [[nodiscard]] Interval confidence_interval(double deviation, const VarianceLaw& law, double confidence);
 
-// Expectation of the total variance over that of the variance without mirroring; 1 for other kinds. As it is, from the
-// covariance of what is mirrored.
+// Expectation of the total variance over that of the variance without mirroring, from the covariance of what is
+// mirrored; 1 for other kinds.
 [[nodiscard]] double total_variance_bias(DeviationKind kind, int noise, std::int64_t m, std::int64_t n_intervals);
-
-// The same as NIST Special Publication 1065 has it: of long averaging times, by simulation.
-[[nodiscard]] double published_total_variance_bias(DeviationKind kind, int noise, std::int64_t m,
-                                                   std::int64_t n_intervals);
 
 }  // namespace zlg::deviations

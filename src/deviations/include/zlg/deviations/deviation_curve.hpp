@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include <zlg/deviations/deviation_kind.hpp>
@@ -11,24 +10,11 @@
 
 namespace zlg::deviations {
 
-// The total deviations are biased by the mirroring, by a factor that the noise decides.
-//
-// removed      divided by the factor as it is, so that the interval is that of the deviation without mirroring
-// published    divided by that of NIST Special Publication 1065, whose tables have it; of mtotdev it is 3 % off and
-// more as_computed  neither, as Stable32 and AllanTools print them
-enum class TotalBias { removed, published, as_computed };
-
-[[nodiscard]] std::string_view name_of(TotalBias bias);
-
-// errors  SeriesError: another name.
-[[nodiscard]] TotalBias total_bias_of(std::string_view name);
-
 struct DeviationOptions {
     double confidence = 0.6827;      // of the intervals, 0 < . <= max_confidence
     double least_known_ratio = 0.9;  // of each averaging window, 0 < . <= 1; 1: no gap within a window
     std::optional<int> noise{};  // exponent of the rate's spectrum f^noise, 2 .. -4; absent: identified from the data
-    TotalBias total_bias = TotalBias::removed;
-    int threads = 1;  // the result has the same bits with any number
+    int threads = 1;             // the result has the same bits with any number
 };
 
 // errors  SeriesError: an option out of its range.
@@ -40,18 +26,16 @@ struct DeviationPoint {
     double deviation = 0.0;  // arcsec/s; tdev arcsec; without unit for Unit::one
     double low = 0.0;        // interval of `confidence`
     double high = 0.0;
-    std::int64_t terms = 0;  // differences that were known
-    VarianceLaw law{};       // for intervals of another confidence
-    int noise = 0;           // exponent of the rate's spectrum at this tau
-    double as_computed =
-        0.0;  // of the total deviations: the deviation with the bias of the mirroring, or what removed it
+    std::int64_t terms = 0;    // differences that were known
+    VarianceLaw law{};         // for intervals of another confidence
+    int noise = 0;             // exponent of the rate's spectrum at this tau
+    double as_computed = 0.0;  // of totdev: with the bias of the mirroring, which the noise decides
 };
 
 struct DeviationCurve {
     DeviationKind kind = DeviationKind::oadev;
     double confidence = 0.0;
-    TotalBias total_bias = TotalBias::removed;  // of the total deviations
-    std::vector<DeviationPoint> points;         // taus at which no term was known are left out
+    std::vector<DeviationPoint> points;  // taus at which no term was known are left out
 };
 
 }  // namespace zlg::deviations

@@ -12,23 +12,18 @@ namespace zlg::deviations {
 //   mdev, tdev       second differences of the angle averaged over tau, and the same times tau/sqrt(3): an angle
 //   hdev, ohdev      third differences: a constant drift of the rate drops out
 //   totdev           oadev with the record mirrored at both ends (angle: doubly reflected)
-//   mtotdev          mdev, every piece of 3 tau freed of its mean rate and mirrored
-//   htotdev          ohdev, every piece of 3 tau of the rate freed of its drift and mirrored
-enum class DeviationKind { adev, oadev, mdev, tdev, hdev, ohdev, totdev, mtotdev, htotdev };
+enum class DeviationKind { adev, oadev, mdev, tdev, hdev, ohdev, totdev };
 
-inline constexpr std::array deviation_kinds{DeviationKind::adev,   DeviationKind::oadev,   DeviationKind::mdev,
-                                            DeviationKind::tdev,   DeviationKind::hdev,    DeviationKind::ohdev,
-                                            DeviationKind::totdev, DeviationKind::mtotdev, DeviationKind::htotdev};
+inline constexpr std::array deviation_kinds{DeviationKind::adev,  DeviationKind::oadev, DeviationKind::mdev,
+                                            DeviationKind::tdev,  DeviationKind::hdev,  DeviationKind::ohdev,
+                                            DeviationKind::totdev};
 
 [[nodiscard]] std::string_view name_of(DeviationKind kind);
 
 // errors  SeriesError: another name.
 [[nodiscard]] DeviationKind deviation_kind_of(std::string_view name);
 
-// Those that mirror the record or pieces of it.
-[[nodiscard]] bool is_total(DeviationKind kind);
-
-// Of the angle averaged over tau: mdev, tdev, mtotdev.
+// Of the angle averaged over tau: mdev, tdev.
 [[nodiscard]] bool is_modified(DeviationKind kind);
 
 // Of differences that begin every tau, and not at every sample: adev, hdev.

@@ -44,6 +44,5 @@ struct KalibrGyro {
 
 // Kalibr's model has two terms; the others are lost.
 [[nodiscard]] KalibrGyro kalibr_gyro(const NoiseTerms& terms, double rate_hz);
-[[nodiscard]] NoiseTerms terms_of(const KalibrGyro& gyro);
 
 }  // namespace zlg::noise

@@ -19,10 +19,9 @@ struct Spectrum {
 
 // Welch's: pieces overlap by half; one of which less than least_known_ratio is known is left out.
 //
-// piece    samples; at most the record's length is used.
-// threads  do not change a bit of the result.
-// errors   SeriesError: rate not positive, piece below 8, no piece known well enough.
+// piece   samples; at most the record's length is used.
+// errors  SeriesError: rate not positive, piece below 8, no piece known well enough.
 [[nodiscard]] Spectrum welch_spectrum(std::span<const double> rates_arcsec_s, double rate_hz, std::size_t piece,
-                                      double least_known_ratio = 0.5, int threads = 1);
+                                      double least_known_ratio = 0.5);
 
 }  // namespace zlg::noise

@@ -25,12 +25,6 @@ struct EarthLine {
     double sigma_arcsec_s = 0.0;
 };
 
-// Noise that somebody presumes, to be drawn beside what was measured.
-struct PresumedNoise {
-    std::string name;
-    noise::NoiseTerms terms;
-};
-
 // A rate-table test of one axis.
 struct TableResult {
     std::string name, holds;
@@ -42,7 +36,6 @@ struct TableResult {
 struct AnalysisResult {
     std::vector<AxisResult> axes;
     std::vector<EarthLine> earth;  // of groups of three axes
-    std::optional<PresumedNoise> presumed;
     std::vector<TableResult> tables;
     std::optional<report::Section> made{};  // how the page was made, where more is known than the settings
 };
@@ -57,9 +50,8 @@ struct AnalysisResult {
 
 inline constexpr double earth_rate_arcsec_s = 15.041067;
 
-// errors  config::ConfigError: no deviation is asked for, or mtotdev or htotdev at averaging times that take many
-// minutes and are not in taus_s; deviations::SeriesError, with the axis' name: nothing known, all equal, too short for
-// a deviation, a tau that it does not have.
+// errors  deviations::SeriesError, with the axis' name: nothing known, all equal, too short for a deviation, a tau that
+// it does not have.
 [[nodiscard]] AxisResult analyze_axis(const AnalysisTask& task, AxisRecord record);
 
 // Axes that are errors are passed over.

@@ -37,8 +37,8 @@ struct CalibrationResult {
 
 struct CalibrationTask {
     std::vector<std::string> logs;           // as `open` knows them; at least one
-    std::vector<double> rate_arcsec_s;       // known rate of rotation: of all logs, or of each; empty: 0
-    std::string rate_name{"rate_arcsec_s"};  // begins a message about rates
+    double rate_arcsec_s = 0.0;              // known rate of rotation
+    std::string rate_name{"rate_arcsec_s"};  // begins a message about it
     // The keys that it was given go over what the logs say. Of what is to be found, only these are presumed.
     config::Config said;
     std::function<logs::RawReader(const std::string&)> open;
@@ -47,9 +47,8 @@ struct CalibrationTask {
 
 // Every log is read once, row by row.
 //
-// errors  config::ConfigError: rates that no gyro has or that do not go with the logs, a log that is named twice, logs
-// whose
-//         reference temperature or loop differ, tick or scale that nobody says or that are contradicted;
+// errors  config::ConfigError: a rate that no gyro has, a log that is named twice, logs whose reference temperature or
+// loop differ, tick or scale that nobody says or that are contradicted;
 //         logs::FormatError: logs of different ticks or scales, one without a whole tick, one whose settings are wrong;
 //         those of `open`.
 [[nodiscard]] CalibrationResult calibrate(const CalibrationTask& task);
