@@ -194,10 +194,12 @@ public:
     }
     // A column ends at a rail where its outermost value stands far more often than those beside it.
     [[nodiscard]] bool is_rail() const {
-        constexpr std::size_t fewest = 10, more = 5;
+        constexpr std::size_t fewest = 10;
         if (values_.size() < kept || value() == 0.0 || n() < fewest) return false;
-        return std::all_of(std::next(values_.begin()), values_.end(),
-                           [this](const auto& beside) { return n() > more * beside.second; });
+        return std::all_of(std::next(values_.begin()), values_.end(), [this](const auto& beside) {
+            constexpr std::size_t more = 5;
+            return n() > more * beside.second;
+        });
     }
     [[nodiscard]] double value() const { return values_.begin()->first; }
     [[nodiscard]] std::size_t n() const { return values_.begin()->second; }
