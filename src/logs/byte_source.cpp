@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -25,31 +24,16 @@
 namespace zlg::logs {
 namespace {
 
-speed_t speed_of(int baud) {
-    constexpr std::array<std::pair<int, speed_t>, 14> speeds{{{9600, B9600},
-                                                              {19200, B19200},
-                                                              {38400, B38400},
-                                                              {57600, B57600},
-                                                              {115200, B115200},
-                                                              {230400, B230400},
-                                                              {460800, B460800},
-                                                              {500000, B500000},
-                                                              {576000, B576000},
-                                                              {921600, B921600},
-                                                              {1000000, B1000000},
-                                                              {1500000, B1500000},
-                                                              {2000000, B2000000},
-                                                              {3000000, B3000000}}};
-    std::string allowed;
-    for (const auto& [number, speed] : speeds) {
-        if (number == baud) return speed;
-        allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", number);
-    }
-    throw SourceError{fmt::format("baud {}: allowed are {}", baud, allowed)};
+// The system knows the speeds by their numbers, and below by its own.
+void set_speed(termios& settings, int baud) {
+    constexpr int least = 50;
+    if (baud < least || ::cfsetspeed(&settings, static_cast<speed_t>(baud)) != 0)
+        throw SourceError{
+            fmt::format("baud {}: allowed is a speed of serial lines, such as 9600, 115200 or 921600", baud)};
 }
 
 // Bytes as they come: no line editing, no flow control, no signals.
-void make_raw(int fd, const std::string& name, speed_t speed) {
+void make_raw(int fd, const std::string& name, int baud) {
     termios settings{};
     if (::tcgetattr(fd, &settings) != 0) fail_io("set up", name, errno);
     ::cfmakeraw(&settings);
@@ -57,10 +41,11 @@ void make_raw(int fd, const std::string& name, speed_t speed) {
     settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
     settings.c_cc[VMIN] = 1;
     settings.c_cc[VTIME] = 0;
-    if (::cfsetspeed(&settings, speed) != 0 || ::tcsetattr(fd, TCSANOW, &settings) != 0) fail_io("set up", name, errno);
+    set_speed(settings, baud);
+    if (::tcsetattr(fd, TCSANOW, &settings) != 0) fail_io("set up", name, errno);
 }
 
-FileDescriptor open_path(const std::string& path, speed_t speed, bool writes) {
+FileDescriptor open_path(const std::string& path, int baud, bool writes) {
     // Not to wait for the other end of a pipe, or for the carrier of a modem.
     const int access = writes ? O_RDWR : O_RDONLY;
     FileDescriptor file{::open(path.c_str(), access | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)};
@@ -69,7 +54,7 @@ FileDescriptor open_path(const std::string& path, speed_t speed, bool writes) {
     if (::fstat(file.get(), &what) == 0 && S_ISDIR(what.st_mode)) fail_io("read", path, EISDIR);
     if (writes && !S_ISCHR(what.st_mode))
         throw SourceError{fmt::format("{}: allowed is a serial device, tcp:HOST:PORT or unix:PATH", path)};
-    if (::isatty(file.get()) != 0) make_raw(file.get(), path, speed);
+    if (::isatty(file.get()) != 0) make_raw(file.get(), path, baud);
     return file;
 }
 
@@ -123,18 +108,20 @@ FileDescriptor connect_unix(const std::string& name) {
     fail_io("connect to", name, errno);
 }
 
-FileDescriptor opened(const std::string& source, speed_t speed, bool writes) {
+FileDescriptor opened(const std::string& source, int baud, bool writes) {
+    termios any{};
+    set_speed(any, baud);
     if (source == "-" && !writes) return FileDescriptor{STDIN_FILENO};
     if (source.starts_with("tcp:")) return connect_tcp(source);
     if (source.starts_with("unix:")) return connect_unix(source);
-    return open_path(source, speed, writes);
+    return open_path(source, baud, writes);
 }
 
 }  // namespace
 
 ByteSource::ByteSource(const std::string& source, int baud, Access access)
     : name_{source == "-" ? "standard input" : source},
-      fd_{opened(source, speed_of(baud), access == Access::both).release()},
+      fd_{opened(source, baud, access == Access::both).release()},
       owned_{source != "-"} {}
 
 ByteSource::~ByteSource() {

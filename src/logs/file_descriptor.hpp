@@ -49,6 +49,19 @@ inline FileDescriptor open_to_read(const std::string& path) {
     return file;
 }
 
+// Reads up to `size` bytes; the number of those before the end of the file, or -1.
+inline ssize_t read_at(int fd, std::size_t at, std::size_t size, void* to) {
+    std::size_t done = 0;
+    while (done < size) {
+        const ssize_t n = ::pread(fd, static_cast<char*>(to) + done, size - done, static_cast<off_t>(at + done));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return -1;
+        if (n == 0) break;
+        done += static_cast<std::size_t>(n);
+    }
+    return static_cast<ssize_t>(done);
+}
+
 struct Written {
     std::size_t n = 0;  // bytes
     int error = 0;      // the errno of what failed behind them; 0: nothing has

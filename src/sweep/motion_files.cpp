@@ -2,10 +2,6 @@
 
 #include <sys/stat.h>
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <vector>
 
@@ -17,24 +13,6 @@
 
 namespace zlg::sweep {
 namespace {
-
-// XXH64 of the bytes, of whatever length.
-std::string checksum(const std::string& path) {
-    std::error_code ignored;
-    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-        throw logs::IoError(fmt::format("cannot read the motion file {} of a sweep: allowed is a regular file", path));
-    const auto fail = [&] {
-        throw logs::IoError(fmt::format("cannot read the motion file {}: {}", path, std::strerror(errno)));
-    };
-    std::ifstream in{path, std::ios::binary};
-    if (!in) fail();
-    logs::ContentHash hash;
-    std::vector<char> block(std::size_t{1} << 16);
-    while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
-        hash.add({block.data(), static_cast<std::size_t>(in.gcount())});
-    if (in.bad()) fail();
-    return fmt::format("{:016x}", hash.value());
-}
 
 // Of the base and of all values that a parameter may give; none where no gyro moves by a file.
 std::set<std::string> motion_files(const Description& description) {
@@ -62,7 +40,7 @@ Description with_motion_checksums(Description description) {
     std::map<std::string, std::string> now;
     for (const std::string& path : motion_files(description)) {
         text::note_input(path);
-        now[path] = checksum(path);
+        now[path] = fmt::format("{:016x}", logs::hash_of_file(path));
         const auto before = description.motion_checksums.find(path);
         if (before != description.motion_checksums.end() && before->second != now[path])
             throw logs::IoError(

@@ -85,6 +85,26 @@ TEST(MotionFile, WhatCanBeReadInTwoWaysIsRefusedWithTheKeysOfMotion) {
     EXPECT_NEAR(motion_of_file(file).increment_arcsec(0.0, 2.0), 1.2, 1e-12);
 }
 
+TEST(MotionFile, EachWordOfTheKeysIsTheOneOfTheReader) {
+    for (const auto& [word, letter] : {std::pair{"space", ' '}, std::pair{"tab", '\t'}, std::pair{"semicolon", ';'},
+                                       std::pair{"comma", ','}, std::pair{"bar", '|'}}) {
+        const TextFile text{std::string{"7"} + letter + "5\n3" + letter + "6\n9" + letter + "8\n"};
+        config::Config config;
+        config.motion = described(text.path(), "2");
+        config::apply_pair(config, "motion.separator", word, "test");
+        EXPECT_NEAR(recorded::motion(config).increment_arcsec(0.0, 3.0), 19.0, 1e-12) << word;
+    }
+    const TextFile text{"0,5\n0,7\n"};
+    config::Config config;
+    config.motion = described(text.path());
+    config::apply_pair(config, "motion.decimal", "comma", "test");
+    EXPECT_NEAR(recorded::motion(config).increment_arcsec(0.0, 2.0), 1.2, 1e-12);
+    config.motion.column = "2";
+    config::apply_pair(config, "motion.separator", "comma", "test");
+    config::apply_pair(config, "motion.decimal", "point", "test");
+    EXPECT_NEAR(recorded::motion(config).increment_arcsec(0.0, 2.0), 12.0, 1e-12);
+}
+
 TEST(MotionFile, ARateIsDividedByTheRowsPerSecond) {
     const TextFile text{"50\n50\n"};
     config::Motion file = described(text.path());
@@ -128,7 +148,7 @@ TEST(MotionFile, RowsThatAreMissingByTheirTimesAreRefused) {
 
 TEST(MotionFile, AMissingFileADirectoryAndAnEmptyFileAreNamed) {
     expect_names(refusal(described("/nowhere/at/all.txt")), {"/nowhere/at/all.txt"});
-    expect_names(refusal(described(testing::TempDir())), {"irectory"});
+    expect_names(refusal(described(testing::TempDir())), {"it is a folder"});
     const TextFile text{"# only a comment\n\n"};
     expect_names(refusal(described(text.path())), {text.path(), "no rows"});
 }

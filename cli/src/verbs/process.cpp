@@ -19,7 +19,6 @@
 #include <zlg/rig/replay.hpp>
 #include <zlg/study/half_wave_replay.hpp>
 #include <zlg/study/switch_table.hpp>
-#include <zlg/text/spelling.hpp>
 
 #include "src/as_json.hpp"
 #include "src/failure.hpp"
@@ -169,7 +168,7 @@ nlohmann::json process_json(const Summary& s, const ProcessOptions& options, con
 }
 
 void process(const ProcessOptions& options) {
-    if (!text::lower_case(options.out).ends_with(".mcap")) (void)log_format(options.out);
+    (void)log_format(options.out);
     refuse_own_input(options.raw, options.out);
     if (!options.switches.empty()) {
         require_suffix(options.switches, ".csv");
@@ -225,7 +224,6 @@ void add_process(CLI::App& program) {
     add_strict_option(*verb, *options);
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
-    verb->get_option("--out")->description("where to write; .mcap: messages sensor_msgs/msg/Imu");
     verb->callback([options] { process(*options); });
 }
 

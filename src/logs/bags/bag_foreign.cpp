@@ -64,7 +64,7 @@ struct ImuRows {
     }
 
     [[nodiscard]] TextTable table(const std::vector<std::int64_t>& wanted, std::int64_t times) const {
-        TextTable all{.columns = {}, .times = {}, .names = names(), .n_columns = std::ssize(columns)};
+        TextTable all;
         for (const std::int64_t number : wanted) all.columns.push_back(column(number));
         if (times > 0) {
             all.times = column(times);

@@ -114,14 +114,14 @@ CsvReader::CsvReader(const std::string& path, std::span<const KnownColumn> colum
     separator_ = head.separator;
     require_shallow_keys(settings_, path);
     map_ = map_columns(columns, head.names, fmt::format("{}:{}", path, lines_.line_number()));
-    fields_.resize(head.names.size());
+    n_fields_ = head.names.size();
     if (lines_.at_end()) throw FormatError(fmt::format("{} is empty: no rows below the column names", path));
 }
 
 std::string CsvReader::place() const { return fmt::format("{}:{}, row {}", lines_.path(), lines_.line_number(), row_); }
 
 void CsvReader::fail(std::size_t column, std::string_view what) const {
-    const bool cut = !lines_.terminated() && *map_.field_of[column] + 1 == fields_.size();
+    const bool cut = !lines_.terminated() && *map_.field_of[column] + 1 == n_fields_;
     throw FormatError(fmt::format("{}, column '{}': {} {}{}", place(), columns_[column].name, quoted(field(column)),
                                   what, cut ? " (the last line has no end: the file may be truncated)" : ""));
 }
@@ -135,33 +135,16 @@ void CsvReader::expect_only_empty_lines() {
     if (row_ == 1) throw FormatError(fmt::format("{} is empty: no rows below the column names", lines_.path()));
 }
 
-std::size_t CsvReader::split_fields_of(std::string_view line) {
-    std::size_t n = 0;
-    if (separator_ == ',' && line.find('"') == std::string_view::npos) {
-        for (;;) {
-            const std::size_t comma = line.find(',');
-            if (n < fields_.size()) fields_[n] = trimmed(line.substr(0, comma));
-            ++n;
-            if (comma == std::string_view::npos) return n;
-            line.remove_prefix(comma + 1);
-        }
-    }
-    split_fields(line, separator_, quoted_fields_);
-    for (; n < std::min(fields_.size(), quoted_fields_.size()); ++n) fields_[n] = quoted_fields_[n].text;
-    return quoted_fields_.size();
-}
-
 void CsvReader::split(std::string_view line) {
-    const std::size_t n = split_fields_of(line);
-    if (n == fields_.size()) return;
-    if (n < fields_.size() && !lines_.terminated()) {
-        throw FormatError(
-            fmt::format("{}: truncated: the file ends after {} of {} fields", place(), n, fields_.size()));
-    }
+    split_fields(line, separator_, fields_);
+    const std::size_t n = fields_.size();
+    if (n == n_fields_) return;
+    if (n < n_fields_ && !lines_.terminated())
+        throw FormatError(fmt::format("{}: truncated: the file ends after {} of {} fields", place(), n, n_fields_));
     if (line.starts_with('#')) {
         throw FormatError(fmt::format("{}: a line with # must stand above the column names", place()));
     }
-    throw FormatError(fmt::format("{}: {} fields, where the column names are {}", place(), n, fields_.size()));
+    throw FormatError(fmt::format("{}: {} fields, where the column names are {}", place(), n, n_fields_));
 }
 
 bool CsvReader::next() {

@@ -57,21 +57,20 @@ public:
     [[noreturn]] void fail(std::size_t column, std::string_view what) const;
 
 private:
-    [[nodiscard]] std::string_view field(std::size_t column) const { return fields_[*map_.field_of[column]]; }
+    [[nodiscard]] std::string_view field(std::size_t column) const { return fields_[*map_.field_of[column]].text; }
     [[nodiscard]] std::optional<std::int64_t> integer(std::size_t column) const;
     [[noreturn]] void fail_integer(std::size_t column, const std::string& allowed) const;
     [[nodiscard]] std::optional<double> real(std::size_t column) const;
     [[nodiscard]] std::string place() const;
     void split(std::string_view line);
-    std::size_t split_fields_of(std::string_view line);
     void expect_only_empty_lines();
 
     LineReader lines_;
     std::span<const KnownColumn> columns_;
     Settings settings_;
     ColumnMap map_;
-    std::vector<std::string_view> fields_;  // of this row; as many as the header names
-    std::vector<Field> quoted_fields_;
+    std::size_t n_fields_ = 0;   // of the header
+    std::vector<Field> fields_;  // of this row, as many
     char separator_ = ',';
     mutable Mark mark_ = Mark::none;  // the decimal mark, where it may be a comma
     std::int64_t row_ = 0;            // the first row is 1

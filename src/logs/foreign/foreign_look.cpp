@@ -21,10 +21,6 @@ namespace zlg::logs {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> raw_names{
-    "half",    "bias_sign",     "mode",   "counts", "loop_closed", "valid", "detuning_lambda", "detuning_sq_lambda2",
-    "piezo_v", "temperature_c", "fringe", "span",   "lit"};
-
 bool all_of_known(const ForeignColumn& column, bool (*holds)(double)) {
     return std::ranges::all_of(column.values, [holds](double v) { return std::isnan(v) || holds(v); });
 }
@@ -57,8 +53,9 @@ std::string may_be(const ForeignColumn& column, std::int64_t times) {
 
 // Columns of a raw log that have our names.
 void take_raw_names(ForeignLook& look) {
-    for (const std::string_view name : raw_names) {
-        const std::string key{name};
+    for (const std::string& key : raw_keys()) {
+        // The first has loop_closed in its place, and the second needs a timer beside it.
+        if (key == "loop_open" || key == "edge_offset_ticks") continue;
         if (look.mapping.has(key) || (key == "loop_closed" && look.mapping.has("loop_open"))) continue;
         const auto is_it = [&](const ForeignColumn& c) { return text::lower_case(c.name) == key; };
         if (std::ranges::count_if(look.table.columns, is_it) != 1) continue;

@@ -190,7 +190,7 @@ ForeignTable table_of_arrays(const std::string& path, const std::string& nature,
     table.notes.insert(table.notes.end(), notes.begin(), notes.end());
     table.read = [path, used = std::move(used), names = std::move(names)](const std::vector<std::int64_t>& wanted,
                                                                           std::int64_t times) {
-        TextTable read{.columns = {}, .times = {}, .names = names, .n_columns = std::ssize(names)};
+        TextTable read;
         for (const std::int64_t number : wanted) read.columns.push_back(empty_column(number, names));
         if (times > 0) read.times = empty_column(times, names);
         fill_columns(path, read, used);

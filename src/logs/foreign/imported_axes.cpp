@@ -149,6 +149,33 @@ ImportedAxes imported_axes(const ForeignLook& look) {
     return imported;
 }
 
+TextColumn even_column(const ForeignTable& table, const Mapping& mapping) {
+    const bool is_said = mapping.has("axis");
+    const ForeignColumn& chosen = column_named(table, is_said ? mapping.axes().front() : "1");
+    refuse_words(chosen);
+    std::int64_t number = time_column(table, mapping);
+    if (!is_said && (chosen.number == number || rises_as_time(chosen.values)))
+        throw MappingError(
+            fmt::format("--map axis is not set: {}, {} rises as times do; allowed is --map axis=COLUMN, also this one",
+                        table.path, described(chosen)));
+    if (chosen.number == number) number = 0;  // whoever asks for it knows that it holds something else
+    TextTable read = table.read({chosen.number}, number);
+    (void)settle_times(read);
+    const RowClock clock = row_clock(read, table.path, mapping, std::nullopt);
+    if (clock.times) {
+        const std::string unit = presumed_unit(*read.times, *clock.times, 1.0 / clock.step_s);
+        if (!unit.empty())
+            throw MappingError(
+                fmt::format("{}, {}: read as {}, which its name does not say; allowed are seconds, or --map "
+                            "time=none",
+                            table.path, described(*read.times), unit));
+        if (clock.times->n_missing > 0)
+            throw FormatError(fmt::format("{}, {}; allowed are rows of which none is missing", table.path,
+                                          missing_in_words(*read.times, *clock.times)));
+    }
+    return std::move(read.columns.front());
+}
+
 std::int64_t angle_rows(const ImportedAxis& axis, const std::function<void(const core::AngleRow&)>& take) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     const LongColumn& angle = axis.phase_arcsec;

@@ -117,8 +117,7 @@ bool takes(const Key& key, const std::string& value) {
         case Takes::raw_column:
             break;
     }
-    if (key.takes == Takes::raw_column && is_fixed(value))
-        return number_in(std::string_view{value}.substr(value.find(':') + 1)).has_value();
+    if (key.takes == Takes::raw_column && is_fixed(value)) return fixed_value(value).has_value();
     return !value.empty();
 }
 
@@ -241,6 +240,17 @@ std::string mapping_keys_text() {
                              allowed.empty() ? std::string{} : fmt::format(" ({})", allowed));
     }
     return lines;
+}
+
+std::vector<std::string> raw_keys() {
+    std::vector<std::string> names;
+    for (const Key& key : keys)
+        if (key.takes == Takes::raw_column) names.emplace_back(key.name);
+    return names;
+}
+
+std::optional<double> fixed_value(std::string_view said) {
+    return is_fixed(said) ? number_in(said.substr(said.find(':') + 1)) : std::nullopt;
 }
 
 bool is_raw_key(std::string_view name) {

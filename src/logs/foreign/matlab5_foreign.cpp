@@ -27,32 +27,12 @@ constexpr int max_depth = 4;
 
 enum Kind : std::uint32_t { structure = 2, first_of_numbers = 6, last_of_numbers = 15 };
 
-// Of the types 1 to 13.
 std::optional<NumberType> type_of(std::uint32_t type) {
-    switch (type) {
-        case 1:
-            return NumberType::i1;
-        case 2:
-            return NumberType::u1;
-        case 3:
-            return NumberType::i2;
-        case 4:
-            return NumberType::u2;
-        case 5:
-            return NumberType::i4;
-        case 6:
-            return NumberType::u4;
-        case 7:
-            return NumberType::f4;
-        case 9:
-            return NumberType::f8;
-        case 12:
-            return NumberType::i8;
-        case 13:
-            return NumberType::u8;
-        default:
-            return std::nullopt;
-    }
+    using enum NumberType;
+    constexpr std::optional<NumberType> none;
+    constexpr std::array<std::optional<NumberType>, 14> types{none, i1,   u1, i2,   u2,   i4, u4,
+                                                              f4,   none, f8, none, none, i8, u8};
+    return type < types.size() ? types[type] : none;
 }
 
 struct Element {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <regex>
@@ -37,22 +36,11 @@ std::size_t width_of(StoredMatrix all, std::size_t n) {
 }
 
 std::optional<NumberType> type_of(std::string_view descr) {
-    struct Named {
-        std::string_view name;
-        NumberType type;
-    };
-    constexpr std::array<Named, 9> types{{{"f8", NumberType::f8},
-                                          {"f4", NumberType::f4},
-                                          {"i8", NumberType::i8},
-                                          {"i4", NumberType::i4},
-                                          {"i2", NumberType::i2},
-                                          {"i1", NumberType::i1},
-                                          {"u4", NumberType::u4},
-                                          {"u2", NumberType::u2},
-                                          {"u1", NumberType::u1}}};
+    constexpr std::string_view names = "i1 u1 i2 u2 i4 u4 i8 u8 f4 f8";  // in the order of NumberType
     if (descr.size() != 3 || (descr[0] != '<' && descr[0] != '|')) return std::nullopt;
-    const auto found = std::ranges::find(types, descr.substr(1), &Named::name);
-    return found == types.end() ? std::nullopt : std::optional{found->type};
+    const std::size_t at = names.find(descr.substr(1));
+    if (at == std::string_view::npos || at % 3 != 0 || descr.ends_with("u8")) return std::nullopt;
+    return static_cast<NumberType>(at / 3);
 }
 
 // Behind the signature: two bytes of a version, the length of the head in 2 or 4 bytes, the head.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <zlg/logs/error.hpp>
@@ -18,34 +17,20 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-// "always:1" and "alternating:-1" stand for a column.
-bool is_fixed(const std::string& said) { return said.starts_with("always:") || said.starts_with("alternating:"); }
-
-double value_behind_colon(const std::string& said) {
-    double value = 0.0;
-    std::from_chars(said.data() + said.find(':') + 1, said.data() + said.size(), value);
-    return value;
-}
-
 }  // namespace
 
 RawSources::RawSources(const ForeignLook& look) : look_{look} {
     std::vector<std::int64_t> wanted;
-    for (const char* key :
-         {"half", "bias_sign", "mode", "counts", "loop_closed", "loop_open", "valid", "detuning_lambda",
-          "detuning_sq_lambda2", "piezo_v", "temperature_c", "fringe", "span", "lit", "edge_offset_ticks"}) {
+    for (const std::string& key : raw_keys()) {
         if (!look.mapping.has(key)) continue;
         const std::string said = look.mapping.text(key);
         RawSource source{.key = key, .values = {}, .from = said};
-        if (is_fixed(said)) {
-            source.fixed = value_behind_colon(said);
-            source.alternates = said.starts_with("alternating:");
-        } else {
-            wanted.push_back(column_named(look.table, said).number);
-        }
+        source.fixed = fixed_value(said).value_or(missing);
+        source.alternates = said.starts_with("alternating:");
+        if (std::isnan(source.fixed)) wanted.push_back(column_named(look.table, said).number);
         all_.push_back(std::move(source));
     }
-    if (wanted.empty() || is_fixed(look.mapping.text("counts")))
+    if (wanted.empty() || fixed_value(look.mapping.text("counts")))
         throw MappingError(
             fmt::format("{}: counts = '{}'; allowed is a column", look.table.path, look.mapping.text("counts")));
     read_ = look.table.read(wanted, time_column(look.table, look.mapping));
@@ -55,7 +40,7 @@ RawSources::RawSources(const ForeignLook& look) : look_{look} {
     n_ = read_.columns.front().values.size();
     std::size_t next = 0;
     for (RawSource& source : all_) {
-        if (!is_fixed(source.from)) {
+        if (std::isnan(source.fixed)) {
             source.from = described(read_.columns[next]);
             if (source.key == "temperature_c")
                 if (const std::string note = make_celsius(read_.columns[next]); !note.empty()) notes_.push_back(note);

@@ -12,8 +12,8 @@ namespace zlg::logs {
 
 struct RawSource {
     std::string key;
-    LongColumn values;  // of a column; empty: `fixed`
-    double fixed = 0.0;
+    LongColumn values;   // of a column; empty: `fixed`
+    double fixed = 0.0;  // NaN: of a column
     bool alternates = false;
     std::string from;  // for messages
 };

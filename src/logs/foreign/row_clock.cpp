@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <zlg/logs/error.hpp>
-#include <zlg/logs/time_check.hpp>
 
 #include "text_table/steps.hpp"
 
@@ -254,6 +253,12 @@ std::string odd_steps(const TextColumn& times, const RowTimes& found) {
 
 }  // namespace
 
+std::string missing_in_words(const TextColumn& times, const RowTimes& found) {
+    return fmt::format("{}: {} rows are missing in {} place{}, the first after row {}", described(times),
+                       found.n_missing, found.holes.size(), found.holes.size() == 1 ? "" : "s",
+                       found.holes.front().row + 1);
+}
+
 RowClock row_clock(const TextTable& read, const std::string& path, const Mapping& mapping,
                    std::optional<double> presumed_step_s) {
     RowClock clock;
@@ -312,8 +317,7 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
             fmt::format("{}: its times repeat, so that a single row that is missing is not seen", described(times)));
     if (!numbers_rows(times, *clock.times))
         clock.notes.push_back(fmt::format("{}: a row is {:.9g} s", described(times), clock.step_s));
-    if (clock.times->n_missing > 0)
-        clock.notes.push_back(missing_in_words(read, path, *clock.times).substr(path.size() + 2));
+    if (clock.times->n_missing > 0) clock.notes.push_back(missing_in_words(times, *clock.times));
     return clock;
 }
 

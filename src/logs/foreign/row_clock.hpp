@@ -62,6 +62,9 @@ void leave_out(TextTable& read, const std::vector<std::size_t>& rows);
 [[nodiscard]] std::optional<double> known_time_unit(const std::string& path, const std::string& name, bool holds_dates,
                                                     const Mapping& mapping);
 
+// "column 1, 't': 3 rows are missing in 2 places, the first after row 7".
+[[nodiscard]] std::string missing_in_words(const TextColumn& times, const RowTimes& found);
+
 // `read` is the whole table; presumed_step_s: what else is known of the step, in place of rate_hz.
 //
 // errors  MappingError: times that contradict what is said; FormatError: times that go back, repeat, or do not say

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -72,14 +71,10 @@ Piece Piece::part(std::size_t at, std::size_t n) const {
 
 void Piece::read(std::size_t at, std::size_t n, char* to) const {
     if (is_packed()) return source_->read_unpacked(begin_ + at, n, to);
-    for (std::size_t done = 0; done < n;) {
-        const ssize_t got = ::pread(source_->file.get(), to + done, n - done, static_cast<off_t>(begin_ + at + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0)
-            throw IoError(
-                fmt::format("cannot read {}: {}", source_->path, got < 0 ? std::strerror(errno) : "it was cut off"));
-        done += static_cast<std::size_t>(got);
-    }
+    const ssize_t got = read_at(source_->file.get(), begin_ + at, n, to);
+    if (got != static_cast<ssize_t>(n))
+        throw IoError(
+            fmt::format("cannot read {}: {}", source_->path, got < 0 ? std::strerror(errno) : "it was cut off"));
 }
 
 std::string Piece::text(std::size_t at, std::size_t n) const {

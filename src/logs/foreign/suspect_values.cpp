@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -185,34 +186,27 @@ std::string repeats(const TextColumn& column, const Steps& steps) {
 // The outermost values with their numbers of rows, from outside on.
 class Outermost {
 public:
-    explicit Outermost(bool largest) : largest_{largest} {}
+    explicit Outermost(bool (*is_outside)(double, double)) : values_{is_outside} {}
     void note(double value) {
-        if (values_.size() == kept && !is_outside(value, values_.back().first) && value != values_.back().first) return;
-        auto at = std::ranges::find_if(values_, [&](const auto& v) { return !is_outside(v.first, value); });
-        if (at != values_.end() && at->first == value) {
-            ++at->second;
-            return;
-        }
-        values_.insert(at, {value, 1});
-        if (values_.size() > kept) values_.pop_back();
+        if (values_.size() == kept && values_.key_comp()(values_.rbegin()->first, value)) return;
+        ++values_[value];
+        if (values_.size() > kept) values_.erase(std::prev(values_.end()));
     }
     // A column ends at a rail where its outermost value stands far more often than those beside it.
     [[nodiscard]] bool is_rail() const {
-        constexpr std::size_t fewest = 10, more = 5;
-        if (values_.size() < kept || values_[0].first == 0.0 || values_[0].second < fewest) return false;
-        const auto beside = std::max_element(values_.begin() + 1, values_.end(),
-                                             [](const auto& a, const auto& b) { return a.second < b.second; });
-        return values_[0].second > more * beside->second;
+        constexpr std::size_t fewest = 10;
+        if (values_.size() < kept || value() == 0.0 || n() < fewest) return false;
+        return std::all_of(std::next(values_.begin()), values_.end(), [this](const auto& beside) {
+            constexpr std::size_t more = 5;
+            return n() > more * beside.second;
+        });
     }
-    [[nodiscard]] double value() const { return values_.front().first; }
-    [[nodiscard]] std::size_t n() const { return values_.front().second; }
+    [[nodiscard]] double value() const { return values_.begin()->first; }
+    [[nodiscard]] std::size_t n() const { return values_.begin()->second; }
 
 private:
     static constexpr std::size_t kept = 5;
-    [[nodiscard]] bool is_outside(double a, double b) const { return largest_ ? a > b : a < b; }
-
-    bool largest_;
-    std::vector<std::pair<double, std::size_t>> values_;
+    std::map<double, std::size_t, bool (*)(double, double)> values_;
 };
 
 struct Rails {
@@ -227,7 +221,7 @@ struct Rails {
         return (largest.is_rail() && value == largest.value()) || (smallest.is_rail() && value == smallest.value());
     }
 
-    Outermost largest{true}, smallest{false};
+    Outermost largest{[](double a, double b) { return a > b; }}, smallest{[](double a, double b) { return a < b; }};
 };
 
 std::string rails_in_words(const TextColumn& column, const Steps& steps, const Rails& rails) {

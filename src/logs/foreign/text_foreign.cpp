@@ -16,7 +16,6 @@
 
 #include "foreign_readers.hpp"
 #include "text_table/dates.hpp"
-#include "text_table/text_reading.hpp"
 #include "text_table/text_recognition.hpp"
 #include "units.hpp"
 
@@ -92,7 +91,7 @@ Dialect dialect_of(PartedLines& lines, const std::string& path, TextLayout layou
     std::string reason;
     for (const std::size_t f : columns_of_numbers(recognition, lines)) {
         try {
-            const Recognised one = recognition.of_columns({fmt::format("{}", f + 1)});
+            const Recognised one = recognition.of_columns({static_cast<std::int64_t>(f) + 1});
             if (!found) found = one;
             const char before = found->reading->dialect.separator, now = one.reading->dialect.separator;
             if (before != now)
@@ -311,8 +310,8 @@ ForeignTable text_table_of(const std::string& path, const Mapping& mapping) {
     for (const ForeignColumn& column : table.columns) names.push_back(column.name);
     table.read = [path, layout = look.layout, names](const std::vector<std::int64_t>& wanted, std::int64_t times) {
         TextLayout asked = layout;
-        for (const std::int64_t number : wanted) asked.columns.push_back(fmt::format("{}", number));
-        asked.time_column = fmt::format("{}", times);
+        asked.columns = wanted;
+        asked.time_column = times;
         try {
             TextTable read = read_text_table(path, asked);
             for (TextColumn& column : read.columns) column.name = names[static_cast<std::size_t>(column.number - 1)];

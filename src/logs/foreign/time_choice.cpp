@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -19,9 +18,6 @@
 namespace zlg::logs {
 
 namespace {
-
-const std::map<std::string, double> to_a_second{
-    {"s", 1.0}, {"ms", 1e3}, {"us", 1e6}, {"ns", 1e9}, {"min", 1.0 / 60.0}, {"h", 1.0 / 3600.0}, {"d", 1.0 / 86400.0}};
 
 const ForeignColumn& column_at(const ForeignTable& table, std::int64_t number) {
     return table.columns[static_cast<std::size_t>(number - 1)];
@@ -90,7 +86,7 @@ bool agree(const ForeignColumn& a, const ForeignColumn& b, const ForeignTable& t
     if (!times_a || !times_b) return true;
     const auto unit = [&mapping](const ForeignColumn& column) {
         if (column.holds_dates) return std::optional{1.0};
-        if (mapping.has("time_unit")) return std::optional{to_a_second.at(mapping.text("time_unit"))};
+        if (mapping.has("time_unit")) return time_unit(mapping.text("time_unit"));
         return unit_of(column.name);
     };
     const auto unit_a = unit(a), unit_b = unit(b);
@@ -149,7 +145,7 @@ std::vector<std::int64_t> time_columns(const ForeignTable& table, const Mapping&
 std::optional<double> known_time_unit(const std::string& path, const std::string& name, bool holds_dates,
                                       const Mapping& mapping) {
     if (holds_dates) return 1.0;
-    if (mapping.has("time_unit")) return to_a_second.at(mapping.text("time_unit"));
+    if (mapping.has("time_unit")) return time_unit(mapping.text("time_unit"));
     if (names_two_units(name))
         throw MappingError(
             fmt::format("{}: '{}' names two units of times; --map time_unit=... says which", path, name));

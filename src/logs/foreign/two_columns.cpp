@@ -30,6 +30,16 @@ bool all_whole(const std::vector<double>& values) {
     return std::ranges::all_of(values, [](double v) { return v >= 0.0 && v == std::floor(v); });
 }
 
+// What is taken off, the first second, for a double holds no nanoseconds since 1970.
+template <class Values>
+double join(Values& whole, const Values& part, double parts) {
+    const double first = whole.empty() ? 0.0 : whole.front();
+    Values both;
+    for (std::size_t k = 0; k < whole.size(); ++k) both.push_back(whole[k] - first + part[k] / parts);
+    whole = std::move(both);
+    return first;
+}
+
 // How many of `part` make one of `whole`: by the names of both, or where it falls when the other rises and comes near
 // to so many. 0: they are no such pair.
 double parts_in(const ForeignColumn& whole, const ForeignColumn& part) {
@@ -41,20 +51,9 @@ double parts_in(const ForeignColumn& whole, const ForeignColumn& part) {
         for (const double some : {1e3, 1e6, 1e9})
             if (most < some && most > some / 2.0) parts = some;
     if (parts < 1e3 || most >= parts) return 0.0;
-    std::vector<double> times;
-    for (std::size_t k = 0; k < part.values.size(); ++k)
-        times.push_back(whole.values[k] - whole.values.front() + part.values[k] / parts);
+    std::vector<double> times = whole.values;
+    (void)join(times, part.values, parts);
     return std::ranges::is_sorted(times) && times.front() < times.back() ? parts : 0.0;
-}
-
-// What is taken off, the first second, for a double holds no nanoseconds since 1970.
-template <class Values>
-double join(Values& whole, const Values& part, double parts) {
-    const double first = whole.empty() ? 0.0 : whole.front();
-    Values both;
-    for (std::size_t k = 0; k < whole.size(); ++k) both.push_back(whole[k] - first + part[k] / parts);
-    whole = std::move(both);
-    return first;
 }
 
 }  // namespace

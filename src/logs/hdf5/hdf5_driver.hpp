@@ -2,14 +2,11 @@
 // What our drivers of the HDF5 library share: a file that stands for a `Subject`, a plain value which says where its
 // bytes are.
 
-#include <sys/types.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <new>
 #include <zlg/logs/error.hpp>
 
+#include "file_descriptor.hpp"
 #include "hdf5_handle.hpp"
 
 namespace zlg::logs::hdf5 {
@@ -67,20 +64,6 @@ Handle access_of(hid_t driver, const Subject& subject) {
     if (driver < 0 || H5Pset_driver(access.get(), driver, &subject) < 0)
         throw IoError("the HDF5 library refuses the driver of a log: " + last_failure().reason);
     return access;
-}
-
-// Reads up to `size` bytes; the number of those before the end of the file, or -1.
-inline ssize_t read_at(int fd, haddr_t address, size_t size, void* buffer) {
-    std::size_t done = 0;
-    while (done < size) {
-        const ssize_t n =
-            ::pread(fd, static_cast<char*>(buffer) + done, size - done, static_cast<off_t>(address + done));
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return -1;
-        if (n == 0) break;
-        done += static_cast<std::size_t>(n);
-    }
-    return static_cast<ssize_t>(done);
 }
 
 // How the HDF5 library reads a log: nothing is made up for what the file does not hold.

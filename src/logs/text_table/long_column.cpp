@@ -30,13 +30,9 @@ void LongColumn::put_away() {
 }
 
 void LongColumn::read(std::size_t at, std::size_t n, double* to) const {
-    for (std::size_t done = 0; done < n * sizeof(double);) {
-        const ssize_t got = ::pread(file_->get(), reinterpret_cast<char*>(to) + done, n * sizeof(double) - done,
-                                    static_cast<off_t>(at * sizeof(double) + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) fail_io("read", "the temporary file of a column", got < 0 ? errno : EIO);
-        done += static_cast<std::size_t>(got);
-    }
+    const ssize_t got = read_at(file_->get(), at * sizeof(double), n * sizeof(double), to);
+    if (got != static_cast<ssize_t>(n * sizeof(double)))
+        fail_io("read", "the temporary file of a column", got < 0 ? errno : EIO);
 }
 
 double LongColumn::fetched(std::size_t k) const {

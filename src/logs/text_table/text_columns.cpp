@@ -15,9 +15,7 @@
 #include "csv/text_fields.hpp"
 #include "dates.hpp"
 #include "file_descriptor.hpp"
-#include "text_reading.hpp"
 #include "text_recognition.hpp"
-#include "time_names.hpp"
 
 namespace zlg::logs {
 
@@ -178,9 +176,7 @@ public:
             throw FormatError(fmt::format("{}: no rows after comments and {} skipped lines", path, layout.skip_lines));
         dialect_ = recognise_dialect(lines_.sample(), path, layout);
         for (const std::size_t f : dialect_.wanted) table_.columns.push_back(column_of(f));
-        choose_times();
-        table_.names = dialect_.names;
-        table_.n_columns = static_cast<std::int64_t>(dialect_.n_fields);
+        if (layout.time_column > 0) table_.times = column_of(static_cast<std::size_t>(layout.time_column - 1));
         use_.resize(table_.columns.size());
     }
 
@@ -200,8 +196,6 @@ private:
                 .name = field < dialect_.names.size() ? dialect_.names[field] : std::string{},
                 .values = {}};
     }
-
-    void choose_times();
 
     [[noreturn]] void refuse(const std::string& why) const {
         throw FormatError(fmt::format("{}:{}{}", lines_.path(), lines_.number(), why));
@@ -224,12 +218,8 @@ private:
             table_.columns[c].values.push_back(number(dialect_.wanted[c], &use_[c]));
         if (!table_.times) return;
         const auto field = static_cast<std::size_t>(table_.times->number - 1);
-        if (const auto time = time_of(fields_[field].text))
-            table_.times->values.push_back(*time);
-        else if (!times_may_fail_)
-            table_.times->values.push_back(number(field, nullptr));
-        else
-            table_.times.reset();  // it was no column of times
+        const auto time = time_of(fields_[field].text);
+        table_.times->values.push_back(time ? *time : number(field, nullptr));
     }
 
     // A date counts from the first one, for a double holds no microseconds since 1970.
@@ -282,31 +272,12 @@ private:
     TextTable table_;
     std::vector<MarkUse> use_;
     std::vector<Field> fields_;
-    bool times_may_fail_ = false;
     Dates dates_;
 };
 
-void Rows::choose_times() {
-    if (!layout_.time_column.empty()) {
-        if (layout_.time_column.find_first_not_of('0') != std::string::npos)
-            table_.times = column_of(field_of(layout_.time_column, dialect_, lines_.path()));
-        return;
-    }
-    times_may_fail_ = true;
-    const auto is_free = [this](std::size_t f) {
-        return std::ranges::find(dialect_.wanted, f) == dialect_.wanted.end();
-    };
-    for (std::size_t f = 0; f < dialect_.names.size() && !table_.times; ++f)
-        if (names_time(dialect_.names[f]) && is_free(f)) table_.times = column_of(f);
-    const bool first_has_name = !dialect_.names.empty() && !dialect_.names.front().empty();
-    if (!table_.times && is_free(0) && !first_has_name) table_.times = column_of(0);
-}
-
 void check(const std::string& path, const TextLayout& layout) {
-    const auto is_bad = [](const std::string& column) {
-        return column.empty() || (column.find_first_not_of('0') == std::string::npos);
-    };
-    if (layout.columns.empty() || std::ranges::any_of(layout.columns, is_bad) || layout.skip_lines < 0)
+    const bool has_bad = std::ranges::any_of(layout.columns, [](std::int64_t column) { return column < 1; });
+    if (layout.columns.empty() || has_bad || layout.skip_lines < 0)
         throw FormatError(
             fmt::format("{}: columns from 1 on are needed, and no negative number of lines to skip", path));
 }

@@ -9,9 +9,19 @@
 
 #include "parted_lines.hpp"
 #include "text_dialect.hpp"
-#include "text_reading.hpp"
 
 namespace zlg::logs {
+
+// How far a way of reading comes; the farthest says what is wrong.
+enum class Verdict { ragged, wrong_header, broken_field, no_such_column, not_numbers, good };
+
+struct Reading {
+    Dialect dialect;
+    Verdict verdict = Verdict::good;
+    std::string reason;
+    bool is_cut = false;  // but for the last line, which has no end
+    bool names_hold_commas = false;
+};
 
 // What stands at the head of a file, below comments and lines to skip.
 //
@@ -36,7 +46,7 @@ public:
     [[nodiscard]] const std::vector<Reading>& readings() const { return readings_; }
 
     // errors  as recognise_dialect(). The time is that of reading these columns.
-    [[nodiscard]] Recognised of_columns(const std::vector<std::string>& columns);
+    [[nodiscard]] Recognised of_columns(const std::vector<std::int64_t>& columns);
 
 private:
     [[noreturn]] void refuse_ambiguous(const Reading& reading, const std::string& one, const std::string& other) const;

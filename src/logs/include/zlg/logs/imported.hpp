@@ -75,6 +75,12 @@ struct ImportedAxes {
 // errors  as imported_raw().
 [[nodiscard]] ImportedAxes imported_axes(const ForeignLook& look);
 
+// The numbers of one column as they stand in the file: of the axis that the mapping says, or of the first column, if
+// that does not rise as times do. The mapping says rate_hz, and the times of the rows agree with it.
+//
+// errors  as imported_axes(); FormatError: rows are missing.
+[[nodiscard]] TextColumn even_column(const ForeignTable& table, const Mapping& mapping);
+
 // The angle log of one axis: a row a sample, sigma_arcsec unknown (inf). A missing sample is flagged `invalid` and
 // `unrepaired` and turns by nothing; where angles were recorded the turn over missing ones is spread evenly and flagged
 // `interpolated` in place of `unrepaired`.

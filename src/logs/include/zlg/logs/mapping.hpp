@@ -51,6 +51,10 @@ void apply_mapping_pair(Mapping& mapping, const std::string& pair);
 [[nodiscard]] std::string mapping_keys_text();
 
 // The keys that name a column of a raw log.
+[[nodiscard]] std::vector<std::string> raw_keys();
 [[nodiscard]] bool is_raw_key(std::string_view key);
+
+// Of "always:1" and "alternating:-1", which stand for a column of a raw log, the number; empty: it is a column.
+[[nodiscard]] std::optional<double> fixed_value(std::string_view said);
 
 }  // namespace zlg::logs

@@ -18,12 +18,12 @@ enum class TextSeparator { automatic, blanks, tab, semicolon, comma, bar };
 enum class TextMark { automatic, point, comma };
 
 struct TextLayout {
-    std::vector<std::string> columns;  // by number from 1, or by name; one or more
-    std::string comment = "#";         // lines that begin with it are skipped, as empty ones are
-    std::int64_t skip_lines = 0;       // and so many of those that are left
+    std::vector<std::int64_t> columns;  // by number from 1; one or more
+    std::string comment = "#";          // lines that begin with it are skipped, as empty ones are
+    std::int64_t skip_lines = 0;        // and so many of those that are left
     TextSeparator separator = TextSeparator::automatic;
     TextMark mark = TextMark::automatic;
-    std::string time_column;           // as `columns`; empty: looked for; "0": there is none
+    std::int64_t time_column = 0;      // the number of the one of the times of the rows; 0: there is none
     std::string section = "analysis";  // whose keys `separator`, `decimal`, `skip_lines` messages name
     std::string only_with;             // rows without this word are skipped; empty: none are
     bool is_windows_1251 = false;      // its letters; else UTF-8, or Latin-1 where a line is none
@@ -43,13 +43,10 @@ struct TextColumn {
 
 struct TextTable {
     std::vector<TextColumn> columns;  // those asked for, in that order
-    std::optional<TextColumn> times;  // the column of the times of the rows, where one is asked for or recognised
-    std::vector<std::string> names;   // of all columns; empty where there is no header
-    std::int64_t n_columns = 0;
+    std::optional<TextColumn> times;  // the column of the times of the rows, where one is asked for
 };
 
 // A line of words above the numbers is their header; the last comment above them is, where it has as many words.
-// Columns of times are recognised by their name, or as a first column without a name that was not asked for.
 //
 // errors  IoError; FormatError: what the file is, where it is no text; lines that can be read in no way or in two; a
 // line
