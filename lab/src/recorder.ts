@@ -4,7 +4,7 @@ import { AllanDeviation, allan_columns, Ring, Thinned } from "./series";
 import { SwitchPictures } from "./switch_pictures";
 
 const signal_columns = 10;
-const angle_columns = 9;
+const angle_columns = 8;
 const switch_columns = 6;
 const newest_ticks = 32768;
 const most_points = 1200;
@@ -15,7 +15,7 @@ const time_column = 0;
 const detuning_column = 3;
 const health_column = 9;
 // Of angles.
-const error_columns = [5, 6, 7, 8];
+const error_columns = [5, 6, 7];
 
 export class Recorder {
     private readonly signal_rows = new Ring(signal_columns, newest_ticks);
