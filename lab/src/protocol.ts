@@ -45,7 +45,7 @@ export type ToWorker =
     | { kind: "jump" } // to the end of the next switch
     | { kind: "turn"; rate_arcsec_s: number } // by hand, from now on
     | { kind: "window"; window_s: number } // of the signals that are shown
-    | { kind: "read_log"; file: File; settings: string[]; save: boolean } // save: its angles as a file, in place of a picture
+    | { kind: "read_log"; file: File; settings: string[] }
     | { kind: "seen" }; // a frame: the next may come
 
 // Columns of equal length.
@@ -124,5 +124,4 @@ export type FromWorker =
     | { kind: "refused"; number: number; message: string; whole: boolean } // what was to be configured, or the gyro in its run; whole: there is none any more that could go on
     | { kind: "log_progress"; fraction: number; ticks: number }
     | { kind: "log_read"; log: LogPicture }
-    | { kind: "log_angles"; name: string; text: Blob }
     | Frame;

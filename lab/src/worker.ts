@@ -87,7 +87,7 @@ class Pace {
                 this.hand.wanted_arcsec_s = message.rate_arcsec_s;
                 break;
             case "read_log":
-                read_log(this.module!, message, (answer) => scope.postMessage(answer));
+                read_log(this.module!, message.file, message.settings, (answer) => scope.postMessage(answer));
                 return;
             case "window":
                 this.window_s = message.window_s;

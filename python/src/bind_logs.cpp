@@ -1,4 +1,3 @@
-#include <array>
 #include <utility>
 
 #include <zlg/config/schema.hpp>
@@ -6,7 +5,6 @@
 #include <zlg/logs/imported.hpp>
 #include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
-#include <zlg/logs/text_columns.hpp>
 
 #include "bind.hpp"
 #include "log_columns.hpp"
@@ -166,57 +164,16 @@ void write_angles(const std::string& path, const py::dict& columns, double tick_
     writer.close();
 }
 
-logs::TextSeparator separator_of(const std::string& name) {
-    using enum logs::TextSeparator;
-    const std::array<std::pair<const char*, logs::TextSeparator>, 6> all{{{"auto", automatic},
-                                                                          {"space", blanks},
-                                                                          {"tab", tab},
-                                                                          {"semicolon", semicolon},
-                                                                          {"comma", comma},
-                                                                          {"bar", bar}}};
-    for (const auto& [known, separator] : all)
-        if (name == known) return separator;
-    throw std::invalid_argument{"separator = " + name + ": allowed is auto, space, tab, semicolon, comma, bar"};
-}
-
-logs::TextMark mark_of(const std::string& name) {
-    if (name == "auto") return logs::TextMark::automatic;
-    if (name == "point") return logs::TextMark::point;
-    if (name == "comma") return logs::TextMark::comma;
-    throw std::invalid_argument{"decimal = " + name + ": allowed is auto, point, comma"};
-}
-
-py::list read_text(const std::string& path, const std::vector<std::string>& columns, const std::string& comment,
-                   std::int64_t skip_lines, const std::string& separator, const std::string& decimal) {
-    const logs::TextLayout layout{.columns = columns,
-                                  .comment = comment,
-                                  .skip_lines = skip_lines,
-                                  .separator = separator_of(separator),
-                                  .mark = mark_of(decimal),
-                                  .time_column = "0",
-                                  .section = "read_text_columns:"};
-    std::vector<std::vector<double>> read;
-    {
-        const py::gil_scoped_release released;
-        read = logs::read_text_columns(path, layout);
-    }
-    py::list arrays;
-    for (auto& each : read) arrays.append(as_array(std::move(each)));
-    return arrays;
-}
-
 }  // namespace
 
 void bind_logs(py::module_& m) {
     m.attr("format_version") = logs::format_version;
-    m.def("log_kind", &kind, "path"_a);
-    m.def("read_raw", &read_raw, "path"_a, "light"_a, "progress"_a);
-    m.def("write_raw", &write_raw, "path"_a, "columns"_a, "settings"_a, "timer_hz"_a, "force"_a, "progress"_a);
-    m.def("read_foreign", &read_foreign, "path"_a, "said"_a, "axes"_a, "progress"_a);
-    m.def("read_angles", &read_angles, "path"_a, "progress"_a);
-    m.def("write_angles", &write_angles, "path"_a, "columns"_a, "tick_s"_a, "settings"_a, "force"_a, "progress"_a);
-    m.def("read_text_columns", &read_text, "path"_a, "columns"_a, "comment"_a, "skip_lines"_a, "separator"_a,
-          "decimal"_a);
+    m.def("log_kind", &kind);
+    m.def("read_raw", &read_raw);
+    m.def("write_raw", &write_raw);
+    m.def("read_foreign", &read_foreign);
+    m.def("read_angles", &read_angles);
+    m.def("write_angles", &write_angles);
 }
 
 }  // namespace zlg::python

@@ -108,8 +108,8 @@ def deviation(
     Raises SeriesError: no sample, nothing known, all equal, another unit, no tau with a term.
     """
     samples = _zlg.Samples(floats(data), rate_hz, data_type, unit, mask(valid))
-    options = _zlg.DeviationOptions(confidence, least_known_ratio, noise, bias, threads)
-    return made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), per_decade, False, options))
+    options = (confidence, least_known_ratio, noise, bias, threads)
+    return made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), per_decade, False, *options))
 
 
 class Estimator(Protocol):
@@ -130,8 +130,7 @@ def _estimator(kind: str, name: str) -> Estimator:
             raise TypeError('data_type must be given: "increments", "rate" (or "freq") or "phase"')
         called = "rate" if data_type == "freq" else data_type
         samples = _zlg.Samples(floats(data), rate, called, "1", mask(valid))
-        options = _zlg.DeviationOptions(0.6827, 0.9, None, bias, 1)
-        d = made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), 20, True, options))
+        d = made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), 20, True, 0.6827, 0.9, None, bias, 1))
         return Known(d.tau_s, d.deviation, 0.5 * (d.high - d.low), d.terms)
 
     estimate.__name__ = estimate.__qualname__ = kind

@@ -9,34 +9,23 @@ from typing import Any, Optional
 
 from . import _zlg
 from ._columns import Progress, made_of
-from ._shown import Shown
+from ._shown import Row, Shown
 from .config import Config, checked
 from .logs import Path
 
 __all__ = ["Acceptance", "Quantity", "accept"]
 
 
-@dataclass(repr=False)
-class Quantity(Shown):
-    """What the logs say of one quantity, and the verdict."""
+class Quantity(Row):
+    """What the logs say of one quantity, and the verdict. None: not determined, no limit.
 
-    #: with its unit, "bias.deg_h"
-    name: str
-    #: None: not determined
-    value: Optional[float]
-    #: one standard deviation
-    uncertainty: Optional[float]
-    #: of the uncertainty; None: known
-    degrees_of_freedom: Optional[float]
-    #: "min" and "max", as far as the plan has them; None: no limit
-    limit: Optional[dict[str, float]]
-    #: "pass", "fail", "undecided", "not determined"; None: no limit
-    verdict: Optional[str]
-    #: that the truth lies beyond the limit, of what passes
-    risk: float
-    #: by which the record would be longer when it decides with an even chance; None: no time does, or it is decided
-    more_hours: Optional[float]
-    reason: str
+    name                name with its unit, "bias.deg_h"
+    value, uncertainty  one standard deviation, of degrees_of_freedom, None: known
+    limit               "min" and "max", as far as the plan has them
+    verdict             "pass", "fail", "undecided", "not determined"
+    risk                that the truth lies beyond the limit, of what passes
+    more_hours          by which the record would be longer when it decides with an even chance; None: no time does, or it is decided
+    """
 
 
 @dataclass(repr=False)

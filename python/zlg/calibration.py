@@ -8,62 +8,30 @@ from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import Progress, columns_of, made_of, warn_each
-from ._shown import Shown
+from ._shown import Row, Shown
 from .config import Config, checked
 from .logs import Path, RawLog
 
 __all__ = ["CalibratedLog", "Calibration", "Constant", "Discriminator", "Goodness", "calibrate"]
 
 
-@dataclass(repr=False)
-class Constant(Shown):
-    """A constant that the logs determine."""
-
-    #: "section.key" of the configuration
-    key: str
-    value: float
-    #: one standard deviation
-    sigma: float
-    #: of both; empty for a pure number
-    unit: str
+class Constant(Row):
+    """A constant that the logs determine: key, "section.key", value, its sigma, and the unit of both, empty for a pure number."""
 
 
-@dataclass(repr=False)
-class Discriminator(Shown):
-    """The inverse discriminator, arrays of shape (points,)."""
-
-    #: wavelengths
-    detuning_lambda: NDArray[np.float64]
-    #: of the discriminator at these detunings
-    signal: NDArray[np.float64]
-    #: one standard deviation of detuning_lambda
-    sigma_lambda: NDArray[np.float64]
+class Discriminator(Row):
+    """The inverse discriminator: detuning_lambda, signal, and sigma_lambda of the detunings, arrays of shape (points,)."""
 
 
-@dataclass(repr=False)
-class Goodness(Shown):
-    """How well a law fits."""
-
-    name: str
-    value: float
-    #: what it is, and what it should be
-    meaning: str
+class Goodness(Row):
+    """How well a law fits: name, value, and a meaning, what it is and what it should be."""
 
 
-@dataclass(repr=False)
-class CalibratedLog(Shown):
-    """What one log brought."""
-
-    path: str
-    duration_s: float
-    segments: int
-    relocks: int
-    #: lowest and highest, degrees Celsius; None: not recorded
-    temperature_c: Optional[tuple[float, float]]
+class CalibratedLog(Row):
+    """What one log brought: path, duration_s, segments, relocks; temperature_c, lowest and highest, None: not recorded."""
 
 
 @dataclass(repr=False)

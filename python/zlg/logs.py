@@ -16,7 +16,7 @@ from ._columns import Progress, columns_of, made_of, warn_each
 from ._shown import Columns, axes_of
 from .config import Config, checked
 
-__all__ = ["AngleLog", "RawLog", "Switches", "convert", "kind", "read_angles", "read_raw", "read_text_columns", "write_angles", "write_raw"]
+__all__ = ["AngleLog", "RawLog", "Switches", "convert", "kind", "read_angles", "read_raw", "write_angles", "write_raw"]
 
 Path = Union[str, os.PathLike[str]]
 
@@ -205,21 +205,3 @@ def convert(source: Path, target: Path, force: bool = False, progress: Progress 
         write_angles(target, read_angles(source, half(0)), force, half(1))
     else:
         raise ValueError(f"{os.fspath(source)}: is neither a raw log nor an angle log")
-
-
-def read_text_columns(
-    path: Path,
-    columns: Sequence[Union[int, str]],
-    comment: str = "#",
-    skip_lines: int = 0,
-    separator: str = "auto",
-    decimal: str = "auto",
-) -> list[NDArray[np.float64]]:
-    """Columns of numbers of a text file, by number from 1 or by the name in its header; NaN where a field is `nan` or empty.
-
-    separator  "space", "tab", "semicolon", "comma", "bar"; "auto": recognised together with the decimal mark
-    decimal    "point", "comma" or "auto"
-    Returns one array per column, shape (rows,). Raises IoError; FormatError, also for a file that can be read in two ways.
-    """
-    wanted = [str(column) for column in columns]
-    return _zlg.read_text_columns(os.fspath(path), wanted, comment, skip_lines, separator, decimal)

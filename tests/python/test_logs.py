@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import zlg
-from zlg.logs import RawLog, kind, read_angles, read_raw, read_text_columns, write_angles, write_raw
+from zlg.logs import RawLog, kind, read_angles, read_raw, write_angles, write_raw
 
 # The three ticks of the README: 2, 0 and 1 counts of 3.263 arcsec.
 COUNTS = np.array([151, -149, 150, -150, 151, -150])
@@ -78,24 +78,6 @@ def test_columns_of_different_lengths_are_refused(tmp_path):
     log.piezo_v = np.zeros((6, 1))
     with pytest.raises(ValueError, match="piezo_v: has 2 dimensions"):
         write_raw(tmp_path / "raw.csv", log)
-
-
-def test_text_columns(tmp_path):
-    (tmp_path / "unit.txt").write_text("% a comment\n1 2.5\nnan 4\n")
-    second, first = read_text_columns(tmp_path / "unit.txt", [2, 1], comment="%")
-    assert np.array_equal(second, [2.5, 4.0])
-    assert first[0] == 1.0 and np.isnan(first[1])
-
-
-def test_text_columns_have_names_and_decimal_commas(tmp_path):
-    (tmp_path / "lab.csv").write_text("time;gyro_z\n0,00;0,5\n0,01;-1,25\n")
-    assert np.array_equal(read_text_columns(tmp_path / "lab.csv", ["gyro_z"])[0], [0.5, -1.25])
-    (tmp_path / "one.csv").write_text("0,5\n0,75\n")
-    with pytest.raises(zlg.FormatError, match="can be read as"):
-        read_text_columns(tmp_path / "one.csv", [1])
-    assert np.array_equal(read_text_columns(tmp_path / "one.csv", [1], decimal="comma")[0], [0.5, 0.75])
-    with pytest.raises(ValueError, match="separator = dot"):
-        read_text_columns(tmp_path / "one.csv", [1], separator="dot")
 
 
 @pytest.mark.parametrize("version", [1, 2, 3, None])
