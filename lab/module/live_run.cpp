@@ -121,14 +121,9 @@ void LiveRun::add_angles() {
     while (!read.empty() && !paper.empty() && !configured.empty()) {
         const core::AngleRow row = final_.take_front();
         const WaitingTick& seen = waiting(row.tick);
-        const std::array<double, 8> numbers{static_cast<double>(row.tick),
-                                            seen.true_arcsec,
-                                            seen.read_arcsec,
-                                            row.dtheta_arcsec,
-                                            row.dtheta_final_arcsec,
-                                            read.take_front(),
-                                            paper.take_front(),
-                                            configured.take_front()};
+        const std::array<double, 8> numbers{
+            static_cast<double>(row.tick), seen.true_arcsec,  seen.read_arcsec,   row.dtheta_arcsec,
+            row.dtheta_final_arcsec,       read.take_front(), paper.take_front(), configured.take_front()};
         rows.insert(rows.end(), numbers.begin(), numbers.end());
     }
 }

@@ -99,7 +99,8 @@ export class LogView {
         element("log-switches").hidden = log.picture === null;
         if (log.picture !== null) charts.last_switch.show(log.picture);
         this.show_flags(log.flags);
-        element("log-notes").replaceChildren(...[...log.notes, ...settings_note(log.settings)].map((note) => made("li", note)));
+        const settings = log.settings.length > 0 ? [`Settings that differ from the defaults: ${log.settings.join(", ")}`] : [];
+        element("log-notes").replaceChildren(...[...log.notes, ...settings].map((note) => made("li", note)));
         const switches = log.n_switches > 0 ? `, ${log.n_switches} switches (rms dP ${short(log.rms_dp_arcsec, 3)} arcsec)` : "";
         this.finish(`${log.name}: ${log.kind === "raw" ? "a raw log, compensated here" : "an angle log"}; ${log.ticks} ticks of ${short(log.tick_s * 1000)} ms, ${short(log.ticks * log.tick_s, 6)} s; ${log.gaps} gaps${switches}; accumulated angle ${short(log.angle_arcsec, 12)} arcsec.`, "shown");
     }
@@ -109,8 +110,4 @@ export class LogView {
         const items = flags.flatMap((n, bit) => (n > 0 ? [made("li", `${(names[bit] ?? `bit ${bit}`).replaceAll("_", " ")}: ${n}`)] : []));
         element("log-flags").replaceChildren(...(items.length > 0 ? items : [made("li", "nothing to report", { class: "good" })]));
     }
-}
-
-function settings_note(settings: string[]): string[] {
-    return settings.length > 0 ? [`Settings that differ from the defaults: ${settings.join(", ")}`] : [];
 }

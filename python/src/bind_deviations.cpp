@@ -20,6 +20,13 @@ py::dict dict_of(const deviations::DeviationCurve& curve) {
     return d;
 }
 
+deviations::Series series_of(const Samples& samples) {
+    const auto& [values, rate_hz, data_type, unit, valid] = samples;
+    return {{deviations::data_kind_of(data_type), deviations::unit_of(unit), rate_hz},
+            span_of(values, "data"),
+            span_of(valid, "valid")};
+}
+
 namespace {
 
 using namespace deviations;
@@ -58,7 +65,7 @@ py::dict deviation_of(const std::string& kind, const Samples& samples, const Tau
                                    .noise = noise,
                                    .total_bias = total_bias_of(bias),
                                    .threads = threads};
-    const Series series = samples.series();
+    const Series series = series_of(samples);
     return dict_of(without_interpreter([&] {
         const AngleRecord record{series};
         const auto largest = largest_factor(which, record.n_intervals());
@@ -70,11 +77,6 @@ py::dict deviation_of(const std::string& kind, const Samples& samples, const Tau
 }  // namespace
 
 void bind_deviations(py::module_& m) {
-    py::class_<Samples>(m, "Samples")
-        .def(py::init([](In<double> values, double rate_hz, const std::string& data_type, const std::string& unit,
-                         std::optional<In<std::uint8_t>> valid) {
-            return Samples{{data_kind_of(data_type), unit_of(unit), rate_hz}, std::move(values), std::move(valid)};
-        }));
     m.def("deviation", &deviation_of);
     // Angles that were bridged, guessed or distrusted are no measurements of the gyro's noise.
     m.attr("not_measured") = core::flag_extrapolated | core::flag_interpolated | core::flag_unrepaired |

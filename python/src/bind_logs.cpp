@@ -15,17 +15,9 @@ namespace {
 constexpr std::size_t rows_per_report = 1 << 16;  // between two reports of progress
 
 std::string kind(const std::string& path) {
-    switch (logs::recognise(path)) {
-        case logs::LogKind::raw_csv:
-        case logs::LogKind::raw_hdf5:
-            return "raw";
-        case logs::LogKind::angle_csv:
-        case logs::LogKind::angle_hdf5:
-            return "angles";
-        case logs::LogKind::unknown:
-            break;
-    }
-    return "unknown";
+    using enum logs::LogKind;
+    const logs::LogKind found = logs::recognise(path);
+    return found == unknown ? "unknown" : found == raw_csv || found == raw_hdf5 ? "raw" : "angles";
 }
 
 // `open` makes the reader.

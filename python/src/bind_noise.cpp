@@ -28,7 +28,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<double, double>>;
 
-py::dict dict_of(const noise::NoiseTerms& terms) {
+py::dict terms_dict(const noise::NoiseTerms& terms) {
     Pairs markov, sines;
     for (const noise::MarkovNoise& each : terms.markov) markov.emplace_back(each.deviation_arcsec_s, each.time_s);
     for (const noise::SineTerm& each : terms.sines) sines.emplace_back(each.amplitude_arcsec_s, each.frequency_hz);
@@ -51,7 +51,7 @@ py::dict dict_of(const noise::NoiseFit& fit) {
         fitted.append(t);
     }
     py::dict d = fields_dict(fit);
-    d["terms"] = dict_of(fit.terms);
+    d["terms"] = terms_dict(fit.terms);
     d["fitted"] = fitted;
     d["tau_s"] = column(fit.points, &noise::FitPoint::tau_s);
     d["measured"] = column(fit.points, &noise::FitPoint::measured);
@@ -66,7 +66,7 @@ using namespace deviations;
 using namespace noise;
 
 py::dict fit(const Samples& samples, bool markov, int most_sines, double least_known_ratio, int threads) {
-    const Series series = samples.series();
+    const Series series = series_of(samples);
     return dict_of(without_interpreter([&] {
         return fit_noise(
             series,
@@ -86,12 +86,12 @@ NoiseTerms terms_of(const py::object& given) {
 }
 
 py::dict terms_of_sheet(double quantisation, double walk, double instability, double rate_walk, double ramp) {
-    return dict_of(noise::terms_of(DataSheet{quantisation, walk, instability, rate_walk, ramp}));
+    return terms_dict(noise::terms_of(DataSheet{quantisation, walk, instability, rate_walk, ramp}));
 }
 
 py::tuple read_imu(const std::string& path) {
     const KalibrGyro gyro = read_imu_yaml(path);
-    return py::make_tuple(dict_of(noise::terms_of(gyro)), gyro.update_rate_hz);
+    return py::make_tuple(terms_dict(noise::terms_of(gyro)), gyro.update_rate_hz);
 }
 
 void bind_terms(py::module_& m) {

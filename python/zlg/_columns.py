@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import warnings
 from collections.abc import Iterable
 from typing import Any, Callable, Optional, TypeVar, Union, get_args, get_origin, get_type_hints
@@ -31,11 +30,6 @@ def made_of(kind: type[T], columns: dict[str, Any]) -> T:
     types = get_type_hints(kind)
     names = columns if issubclass(kind, Row) else types
     return kind(**{name: _of_type(types.get(name), value) for name, value in columns.items() if name in names})
-
-
-def columns_of(log: Any) -> dict[str, Any]:
-    """The members by their names, not copied."""
-    return {field.name: getattr(log, field.name) for field in dataclasses.fields(log)}
 
 
 def warn_each(reasons: Iterable[str]) -> None:

@@ -107,7 +107,7 @@ def deviation(
                 whose tables have them), "as_computed" (as AllanTools and Stable32)
     Raises SeriesError: no sample, nothing known, all equal, another unit, no tau with a term.
     """
-    samples = _zlg.Samples(floats(data), rate_hz, data_type, unit, mask(valid))
+    samples = (floats(data), rate_hz, data_type, unit, mask(valid))
     options = (confidence, least_known_ratio, noise, bias, threads)
     return made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), per_decade, False, *options))
 
@@ -129,7 +129,7 @@ def _estimator(kind: str, name: str) -> Estimator:
         if data_type is None:
             raise TypeError('data_type must be given: "increments", "rate" (or "freq") or "phase"')
         called = "rate" if data_type == "freq" else data_type
-        samples = _zlg.Samples(floats(data), rate, called, "1", mask(valid))
+        samples = (floats(data), rate, called, "1", mask(valid))
         d = made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), 20, True, 0.6827, 0.9, None, bias, 1))
         return Known(d.tau_s, d.deviation, 0.5 * (d.high - d.low), d.terms)
 

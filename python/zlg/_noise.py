@@ -104,7 +104,7 @@ def fit_noise(
 
     data  shape (samples,). Raises SeriesError: as `deviation`; fewer than 64 intervals.
     """
-    samples = _zlg.Samples(floats(data), rate_hz, data_type, unit, mask(valid))
+    samples = (floats(data), rate_hz, data_type, unit, mask(valid))
     return made_of(NoiseFit, _zlg.fit_noise(samples, markov, most_sines, least_known_ratio, threads))
 
 

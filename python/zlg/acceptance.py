@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Optional
 
 from . import _zlg
 from ._columns import Progress, made_of
-from ._shown import Row, Shown
+from ._shown import Row
 from .config import Config, checked
 from .logs import Path
 
@@ -28,22 +27,17 @@ class Quantity(Row):
     """
 
 
-@dataclass(repr=False)
-class Acceptance(Shown):
-    """What `accept` gives."""
+class Acceptance(Row):
+    """What `accept` gives, as the program's record has it.
 
-    #: whether every limit is met
-    passed: bool
-    #: serial, type, ... as the plan has them
-    unit: dict[str, Any]
-    risk: float
-    #: that a unit which passes lies beyond one of the limits; None: it does not pass
-    unit_risk: Optional[float]
+    passed     whether every limit is met
+    unit       serial, type, ... as the plan has them
+    risk       of a quantity; unit_risk: that a unit which passes lies beyond one of the limits, None: it does not pass
+    runs       files with their checksums, notes, and why a run is no measurement
+    html       the page, as `zlg accept --out` writes it
+    """
+
     quantities: list[Quantity]
-    #: files with their checksums, notes, and why a run is no measurement
-    runs: list[dict[str, Any]]
-    #: the page, as `zlg accept --out` writes it
-    html: str
 
     def __getitem__(self, name: str) -> Quantity:
         """The quantity of a name, "bias.deg_h". Raises KeyError."""

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 import numpy as np
 
 from . import _zlg
-from ._columns import Progress, columns_of, made_of, warn_each
-from ._shown import Row, Shown
+from ._columns import Progress, made_of, warn_each
+from ._shown import Row
 from .config import Config, checked
 from .logs import Path, RawLog
 
@@ -34,26 +33,19 @@ class CalibratedLog(Row):
     """What one log brought: path, duration_s, segments, relocks; temperature_c, lowest and highest, None: not recorded."""
 
 
-@dataclass(repr=False)
-class Calibration(Shown):
-    """What `calibrate` gives."""
+class Calibration(Row):
+    """What `calibrate` gives.
+
+    not_determined    why a constant is not among them, by its key; a discriminator that is not is None
+    bias_chi_higher   gyro.bias_chi_higher, with the bias_chi of `constants`; of a parabola none
+    tick_s, scale_arcsec, reference_temperature_c  of the logs; to which the constants refer, degrees Celsius
+    toml              the configuration that `to_toml` gives
+    """
 
     constants: list[Constant]
-    #: why a constant is not among them, by its key
-    not_determined: dict[str, str]
-    #: gyro.bias_chi_higher, with the bias_chi of `constants`; of a parabola none
-    bias_chi_higher: list[float]
-    #: None: not determined
     discriminator: Optional[Discriminator]
     goodness: list[Goodness]
     logs: list[CalibratedLog]
-    #: of the logs
-    tick_s: float
-    scale_arcsec: float
-    #: to which the constants refer, degrees Celsius
-    reference_temperature_c: float
-    #: the configuration that `to_toml` gives
-    toml: str
 
     def __getitem__(self, key: str) -> Constant:
         """The constant of a key, "gyro.bias_hz". Raises KeyError; where it was not determined, it says why."""
@@ -110,7 +102,7 @@ def calibrate(
             if any(log is other for other in each[:place]):
                 raise ValueError(f"logs: log {place} is named twice; each log counts once")
             names.append(f"log {place}")
-            held[names[-1]] = columns_of(log)
+            held[names[-1]] = vars(log)
         else:
             names.append(os.fspath(log))
     rates = [float(rate) for rate in np.atleast_1d(np.asarray(rate_arcsec_s, dtype=np.float64))]
