@@ -9,6 +9,9 @@
 #include "bind.hpp"
 #include "fields_dict.hpp"
 
+BOOST_HANA_ADAPT_STRUCT(zlg::noise::NoiseTerms, quantisation_arcsec, angle_random_walk_arcsec_sqrt_s, filter_time_s,
+                        bias_instability_arcsec_s, rate_random_walk_arcsec_s_sqrt_s, ramp_arcsec_s2);
+
 namespace zlg::python {
 
 py::dict dict_of(const noise::ModeSplit& split) {

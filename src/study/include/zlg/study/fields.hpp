@@ -43,8 +43,6 @@ BOOST_HANA_ADAPT_STRUCT(zlg::study::AxisResult, name, holds, rate_hz, n_samples,
 BOOST_HANA_ADAPT_STRUCT(zlg::study::Readout, what, tau_s, deviation_arcsec_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::study::EarthLine, group, n_axes, norm_arcsec_s, sigma_arcsec_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::deviations::DeviationPoint, tau_s, m, deviation, low, high, terms, noise, as_computed);
-BOOST_HANA_ADAPT_STRUCT(zlg::noise::NoiseTerms, quantisation_arcsec, angle_random_walk_arcsec_sqrt_s, filter_time_s,
-                        bias_instability_arcsec_s, rate_random_walk_arcsec_s_sqrt_s, ramp_arcsec_s2);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::FittedTerm, found, value, sigma, limit, read_at_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::NoiseFit, chi2, dof, probability, model_error, describes, from_tau_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::noise::FitPoint, tau_s, measured, fitted, degrees);
