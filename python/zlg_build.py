@@ -21,7 +21,7 @@ def version():
     return re.search(r"project\(zlg VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
 
 
-def metadata(packages=()):
+def metadata(packages):
     head = {
         "Metadata-Version": "2.1",
         "Name": "zlg",
@@ -50,17 +50,6 @@ def packages_of(module):
 def tag():
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     return f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
-
-
-def get_requires_for_build_wheel(config_settings=None):
-    return []
-
-
-def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
-    info = pathlib.Path(metadata_directory) / f"zlg-{version()}.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text(metadata())
-    return info.name
 
 
 def built_package(config_settings):

@@ -27,22 +27,14 @@ rig::Replay replay_of(const config::Config& config, core::RelockMethod relock, c
 
 }  // namespace
 
-LiveRun::LiveRun(const config::Config& config, const std::optional<config::Config>& other,
-                 std::shared_ptr<const HandTurns> hand)
+LiveRun::LiveRun(const config::Config& config, std::shared_ptr<const HandTurns> hand)
     : config_{config},
-      run_{config, hand},
+      run_{config, std::move(hand)},
       configured_{config},
       compared_{
           Compared{replay_of(config, core::RelockMethod::none, core::BridgeMethod::none), ErrorTrack{config}},
           Compared{replay_of(config, core::RelockMethod::detuning, core::BridgeMethod::quadratic), ErrorTrack{config}}},
-      switches_{config.compensation.relock_ticks} {
-    if (!other) return;
-    try {
-        other_.emplace(*other, std::move(hand));
-    } catch (const config::ConfigError& error) {
-        refuse_other(error);
-    }
-}
+      switches_{config.compensation.relock_ticks} {}
 
 void LiveRun::advance() {
     const bool ends_tick = first_.has_value();
@@ -59,12 +51,6 @@ void LiveRun::advance() {
     if (ends_tick) configured_.end_tick(half.record.half / 2, run_.replay());
     take_rows(configured_, rows);
     for (const core::AngleRow& row : rows) final_.push_back(row);
-    if (other_) {
-        other_->advance([this](const core::AngleRow& row) {
-            other_sum_.add(row.dtheta_final_arcsec - waiting(row.tick).true_arcsec);
-            other_error_arcsec_.push_back(other_sum_.value());
-        });
-    }
     if (ends_tick)
         first_.reset();
     else
@@ -132,18 +118,12 @@ void LiveRun::add_angles() {
     Queue<double>& paper = compared_[1].track.waiting_arcsec();
     Queue<double>& configured = configured_.waiting_arcsec();
     std::vector<double>& rows = rows_[static_cast<std::size_t>(View::angles)];
-    while (!read.empty() && !paper.empty() && !configured.empty() && !(other_ && other_error_arcsec_.empty())) {
+    while (!read.empty() && !paper.empty() && !configured.empty()) {
         const core::AngleRow row = final_.take_front();
         const WaitingTick& seen = waiting(row.tick);
-        const std::array<double, 9> numbers{static_cast<double>(row.tick),
-                                            seen.true_arcsec,
-                                            seen.read_arcsec,
-                                            row.dtheta_arcsec,
-                                            row.dtheta_final_arcsec,
-                                            read.take_front(),
-                                            paper.take_front(),
-                                            configured.take_front(),
-                                            other_ ? other_error_arcsec_.take_front() : unknown};
+        const std::array<double, 8> numbers{
+            static_cast<double>(row.tick), seen.true_arcsec,  seen.read_arcsec,   row.dtheta_arcsec,
+            row.dtheta_final_arcsec,       read.take_front(), paper.take_front(), configured.take_front()};
         rows.insert(rows.end(), numbers.begin(), numbers.end());
     }
 }

@@ -24,19 +24,12 @@ namespace zlg::lab {
 // The page's views of the gyro. Each holds rows, one number a column, until `forget`.
 enum class View { signals, angles, switches };
 
-// What is wrong with the second gyro of two, as that.
-[[noreturn]] inline void refuse_other(const config::ConfigError& error) {
-    throw config::ConfigError{std::string{"the second gyro: "} + error.what()};
-}
-
 class LiveRun {
 public:
-    // other  a second gyro on the same motion, whose error of the angle is shown beside; nothing: none.
-    // hand   turns that are added to the motion of both, in the order of their times, later ones while the gyro runs.
+    // hand  turns that are added to the motion, in the order of their times, later ones while the gyro runs.
     //
     // errors  as LoopRun.
-    LiveRun(const config::Config& config, const std::optional<config::Config>& other,
-            std::shared_ptr<const HandTurns> hand);
+    LiveRun(const config::Config& config, std::shared_ptr<const HandTurns> hand);
 
     // One half-period of bias, and the rows that are settled by it.
     //
@@ -46,7 +39,7 @@ public:
     //   signals   a row a tick: time at its end, s; true and measured rate, arcsec/s; detuning, lambda; piezo voltage,
     //             V; light of beam A and B; mode; 1 where the loop is closed; bits of health
     //   angles    a row a tick, some ticks later: tick; its true, read, delivered and final increment, arcsec; error of
-    //             the angle, arcsec: as read, by the paper, as configured, of the other gyro (NaN without)
+    //             the angle, arcsec: as read, by the paper, as configured
     //   switches  a row for each switch and compensation (0 as read, 1 by the paper, 2 as configured): compensation;
     //             first tick; ticks of the gap; last tick; mode after; error, arcsec
     [[nodiscard]] const std::vector<double>& rows(View view) const { return rows_[static_cast<std::size_t>(view)]; }
@@ -85,9 +78,6 @@ private:
     LoopRun run_;
     ErrorTrack configured_;
     std::array<Compared, 2> compared_;  // as read, by the paper
-    std::optional<LoopRun> other_;
-    Queue<double> other_error_arcsec_;
-    core::ExactSum other_sum_;
     study::SwitchFinder switches_;
     std::optional<rig::LoopHalf> first_;  // of the tick that has begun
     std::array<WaitingTick, core::history_ticks> waiting_{};

@@ -140,7 +140,7 @@ void LogRun::take(const core::HalfRecord& half) {
     if (first_) {
         const std::int64_t tick = half.half / 2;
         seen(tick) = {config_.gyro.scale_arcsec * static_cast<double>(first_->counts + half.counts),
-                      first_->loop_closed && half.loop_closed ? 1.0 : 0.0, half.detuning_lambda, half.piezo_v};
+                      half.detuning_lambda, half.piezo_v};
         first_.reset();
     } else {
         first_ = half;
@@ -155,7 +155,7 @@ void LogRun::take(const core::HalfRecord& half) {
 }
 
 void LogRun::take(const logs::TimedAngle& angle) {
-    seen(angle.row.tick) = {unknown, (angle.row.flags & core::flag_loop_unlocked) != 0 ? 0.0 : 1.0, unknown, unknown};
+    seen(angle.row.tick) = {unknown, unknown, unknown};
     final_.push_back(angle.row);
     add_ticks();
 }
@@ -179,7 +179,7 @@ void LogRun::add_ticks() {
         final_arcsec_.add(row.dtheta_final_arcsec);
         ticks_.insert(ticks_.end(),
                       {static_cast<double>(row.tick), at.read_arcsec, row.dtheta_arcsec, row.dtheta_final_arcsec,
-                       row.sigma_arcsec, static_cast<double>(row.flags), static_cast<double>(row.mode), at.closed,
+                       row.sigma_arcsec, static_cast<double>(row.flags), static_cast<double>(row.mode),
                        at.detuning_lambda, at.piezo_v, delivered_arcsec_.value(), final_arcsec_.value()});
         for (Compared& each : compared_) {
             each.less_configured.add(each.final_arcsec.take_front() - row.dtheta_final_arcsec);

@@ -39,10 +39,9 @@ public:
     bool advance(std::int64_t rows);
 
     //   ticks     a row a tick, in their order: tick; increment as read, delivered, final, arcsec; sigma of the final
-    //   one; flags; mode; 1
-    //             where the loop is closed; detuning of the second half, lambda; piezo voltage, V; angle since the
-    //             start as delivered, final, and without corrections and by the paper, each less the final one,
-    //             arcsec. NaN: the log does not say.
+    //             one; flags; mode; detuning of the second half, lambda; piezo voltage, V; angle since the start as
+    //             delivered, final, and without corrections and by the paper, each less the final one, arcsec. NaN: the
+    //             log does not say.
     //   switches  a row for each: first tick; ticks of the gap; mode after; dP of eq (16), arcsec
     [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
     [[nodiscard]] const std::vector<double>& switches() const { return switches_; }
@@ -63,7 +62,6 @@ private:
     };
     struct SeenTick {
         double read_arcsec = 0.0;
-        double closed = 1.0;
         double detuning_lambda = 0.0;
         double piezo_v = 0.0;
     };

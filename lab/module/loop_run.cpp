@@ -29,12 +29,9 @@ config::Config configured(std::span<const std::string> settings) {
 }
 
 LoopRun::LoopRun(const config::Config& config, std::shared_ptr<const HandTurns> hand)
-    : LoopRun{config, rig::motion(config), std::move(hand)} {}
-
-LoopRun::LoopRun(const config::Config& config, twin::Motion motion, std::shared_ptr<const HandTurns> hand)
     : tick_s_{config.gyro.tick_s},
-      run_halves_{2 * rig::run_ticks(config, motion)},
-      loop_{config, turned(motion, std::move(hand))},
+      run_halves_{2 * rig::run_ticks(config, rig::motion(config))},
+      loop_{config, turned(rig::motion(config), std::move(hand))},
       replay_{rig::asked_compensation(config)} {}
 
 }  // namespace zlg::lab

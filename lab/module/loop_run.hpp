@@ -65,8 +65,6 @@ public:
     [[nodiscard]] double time_s() const { return 0.5 * tick_s_ * static_cast<double>(replay_.halves()); }
 
 private:
-    LoopRun(const config::Config& config, twin::Motion motion, std::shared_ptr<const HandTurns> hand);
-
     double tick_s_;
     std::int64_t run_halves_;
     rig::ClosedLoop loop_;

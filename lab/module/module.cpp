@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -19,7 +18,6 @@
 
 #include <fmt/format.h>
 
-#include "design_formulas.hpp"
 #include "live_run.hpp"
 #include "log_run.hpp"
 #include "loop_run.hpp"
@@ -36,7 +34,6 @@ struct Page {
     std::string text;     // of the page
     std::string message;  // of the module: a refusal, or an answer
     std::string fingerprint;
-    std::optional<std::string> other;  // settings of the second gyro, over those of the first
     config::Config asked;
     std::shared_ptr<lab::HandTurns> hand = std::make_shared<lab::HandTurns>();
     std::unique_ptr<lab::LiveRun> run;
@@ -72,19 +69,9 @@ int done(const Work& work) {
 }
 
 void configure() {
-    std::vector<std::string> settings = lines(page().text);
+    const std::vector<std::string> settings = lines(page().text);
     config::Config asked = lab::asked(settings);
-    const config::Config config = lab::configured(settings);
-    std::optional<config::Config> other;
-    if (page().other) {
-        for (const std::string& line : lines(*page().other)) settings.push_back(line);
-        try {
-            other = lab::configured(settings);
-        } catch (const config::ConfigError& error) {
-            lab::refuse_other(error);
-        }
-    }
-    page().run = std::make_unique<lab::LiveRun>(config, other, page().hand);
+    page().run = std::make_unique<lab::LiveRun>(lab::configured(settings), page().hand);
     page().asked = std::move(asked);
 }
 
@@ -106,21 +93,6 @@ ZLG_EXPORT(zlg_text) char* zlg_text(std::size_t bytes) {
 
 // A new gyro, of that text: a line `section.key=value` for each setting, the later over the earlier.
 ZLG_EXPORT(zlg_configure) int zlg_configure() { return done(configure); }
-
-// From the next zlg_configure on a second gyro runs beside the first on the same motion, with the settings of the text
-// over those of the first; where `wanted` is 0, none.
-ZLG_EXPORT(zlg_other) void zlg_other(int wanted) {
-    page().other = wanted != 0 ? std::optional{page().text} : std::nullopt;
-}
-
-// What the theory says of the gyro that was configured (design_formulas.hpp), with the numbers of its enumerators: the
-// drift of a budget, the best interval by a law.
-ZLG_EXPORT(zlg_drift) double zlg_drift(std::uint32_t budget, double interval_s, double run_s, double error_arcsec) {
-    return lab::drift_arcsec_s(page().asked, static_cast<lab::Budget>(budget), interval_s, run_s, error_arcsec);
-}
-ZLG_EXPORT(zlg_interval) double zlg_interval(std::uint32_t law, double run_s, double error_arcsec) {
-    return lab::interval_s(page().asked, static_cast<lab::IntervalLaw>(law), run_s, error_arcsec);
-}
 
 // So many half-periods of bias, also beyond run.duration_s.
 ZLG_EXPORT(zlg_advance) int zlg_advance(std::uint32_t halves) {

@@ -11,7 +11,6 @@ template <class T>
 class Queue {
 public:
     [[nodiscard]] bool empty() const { return first_ == items_.size(); }
-    [[nodiscard]] const T& front() const { return items_[first_]; }
     void push_back(const T& item) { items_.push_back(item); }
 
     // The queue must not be empty. The place is used again once the queue has been empty, or is mostly behind us.

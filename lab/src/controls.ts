@@ -166,7 +166,7 @@ export class Controls {
 
 // The best interval is found by trials, which the page does not make.
 function allowed_here(key: Key): string {
-    if (key.kind === "interval") return `${key.allowed.replace(/, or "optimal"$/, "")}; the best one stands in “How often to switch”`;
+    if (key.kind === "interval") return key.allowed.replace(/, or "optimal"$/, "");
     return is_motion_kind(key) ? key.allowed.replace(`, ${recorded}`, "") : key.allowed;
 }
 

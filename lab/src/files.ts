@@ -1,4 +1,4 @@
-// Files that the reader gives to the page, dropped anywhere on it or chosen, and one that it gives him.
+// Files that the reader gives to the page, dropped anywhere on it or chosen.
 
 export function choose_file(button: HTMLElement, input: HTMLInputElement, take: (file: File) => void): void {
     button.addEventListener("click", () => input.click());
@@ -25,12 +25,4 @@ export function on_drop(take: (file: File) => void): void {
         const file = event.dataTransfer!.files[0];
         if (file) take(file);
     });
-}
-
-export function save(name: string, text: Blob): void {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(text);
-    link.download = name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

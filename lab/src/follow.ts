@@ -121,7 +121,7 @@ class LivePage {
 
     // The cards of the simulated gyro give way.
     private build(): void {
-        for (const name of [".tools", ".buttons", ".speed", ".mark", "#note", "#tour"]) document.querySelector<HTMLElement>(name)?.setAttribute("hidden", "");
+        for (const name of [".tools", ".buttons", ".speed", ".mark", "#note"]) document.querySelector<HTMLElement>(name)?.setAttribute("hidden", "");
         for (const seconds of ["1", "5", "30", "150"]) this.window_s.append(made("option", `${seconds} s`, { value: seconds }));
         this.window_s.value = "5";
         this.window_s.addEventListener("change", () => this.draw_soon());

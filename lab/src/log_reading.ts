@@ -10,8 +10,8 @@ const most_stretches = 1024;
 const newest_ticks = 16384;
 
 // Columns of log_run.hpp.
-const tick_columns = 14;
-const tick_column = { tick: 0, read: 1, delivered: 2, final: 3, sigma: 4, flags: 5, mode: 6, closed: 7, detuning: 8, piezo: 9, angle_delivered: 10, angle: 11, read_less: 12, paper_less: 13 };
+const tick_columns = 13;
+const tick_column = { tick: 0, read: 1, delivered: 2, final: 3, sigma: 4, flags: 5, mode: 6, detuning: 7, piezo: 8, angle_delivered: 9, angle: 10, read_less: 11, paper_less: 12 };
 const switch_columns = 4;
 const n_flags = 32;
 const in_gap = 0x300; // flag_loop_unlocked, flag_invalid
@@ -87,68 +87,26 @@ class LogRecorder {
     }
 }
 
-// The rows of an angle log, as the program writes them; above them the settings that were asked for, not all that were in force.
-class AngleRows {
-    private readonly parts: string[];
-    n = 0;
-
-    constructor(
-        private readonly tick_s: number,
-        settings: string[],
-        legend: string[],
-    ) {
-        const lines = [...settings.map((setting) => setting.replace("=", " = ")), `tick_s = ${tick_s}`, `flags = ${legend.map((name, bit) => `${name}:${2 ** bit}`).join(" ")}`];
-        this.parts = [...lines.map((line) => `# ${line}\n`), "tick,t_s,dtheta_arcsec,dtheta_final_arcsec,sigma_arcsec,mode,flags\n"];
-    }
-
-    take(ticks: Float64Array): void {
-        const at = tick_column;
-        const lines: string[] = [];
-        for (let row = 0; row < ticks.length; row += tick_columns) {
-            const sigma = ticks[row + at.sigma];
-            lines.push(`${ticks[row]},${(ticks[row] + 1) * this.tick_s},${ticks[row + at.delivered]},${ticks[row + at.final]},${sigma === Infinity ? "inf" : sigma},${ticks[row + at.mode]},${ticks[row + at.flags]}\n`);
-        }
-        this.parts.push(lines.join(""));
-        this.n += lines.length;
-    }
-
-    blob(): Blob {
-        return new Blob(this.parts, { type: "text/csv" });
-    }
-}
-
-interface Wanted {
-    file: File;
-    settings: string[];
-    save: boolean;
-}
-
-export function read_log(module: LoopModule, wanted: Wanted, answer: (message: FromWorker) => void): void {
+export function read_log(module: LoopModule, file: File, settings: string[], answer: (message: FromWorker) => void): void {
     try {
-        module.open_log(wanted.file, wanted.settings);
-        const { tick_s, settings } = module.log_facts();
-        const recorder = new LogRecorder(tick_s);
-        const rows = wanted.save ? new AngleRows(tick_s, settings, module.schema().angle_flags) : null;
-        read_rows(module, (ticks, switches) => (rows !== null ? rows.take(ticks) : recorder.take(ticks, switches)), answer);
-        if (rows !== null) answer({ kind: "log_angles", name: wanted.file.name, text: rows.blob() });
-        else answer({ kind: "log_read", log: { name: wanted.file.name, ...module.log_facts(), ...recorder.picture() } });
+        module.open_log(file, settings);
+        const recorder = new LogRecorder(module.log_facts().tick_s);
+        read_rows(module, recorder, answer);
+        answer({ kind: "log_read", log: { name: file.name, ...module.log_facts(), ...recorder.picture() } });
     } catch (error) {
         if (!(error instanceof Refusal)) throw error;
         answer({ kind: "refused", number: 0, message: error.message, whole: true });
     }
 }
 
-function read_rows(module: LoopModule, take: (ticks: Float64Array, switches: Float64Array) => void, answer: (message: FromWorker) => void): void {
+function read_rows(module: LoopModule, recorder: LogRecorder, answer: (message: FromWorker) => void): void {
     let shown_ms = performance.now();
-    let n = 0;
     for (let more = true; more; ) {
         more = module.advance_log(rows_a_slice);
-        const ticks = module.rows(View.log_ticks);
-        take(ticks, module.rows(View.log_switches));
+        recorder.take(module.rows(View.log_ticks), module.rows(View.log_switches));
         module.calls.zlg_log_forget();
-        n += ticks.length / tick_columns;
         if (performance.now() - shown_ms < progress_ms) continue;
         shown_ms = performance.now();
-        answer({ kind: "log_progress", fraction: module.calls.zlg_log_fraction(), ticks: n });
+        answer({ kind: "log_progress", fraction: module.calls.zlg_log_fraction(), ticks: recorder.ticks });
     }
 }

@@ -2,7 +2,6 @@
 import { compared_lines } from "./compensations";
 import { GyroClient } from "./client";
 import { element, finite, lines_of, made, positive } from "./elements";
-import { save } from "./files";
 import { MagnifiedSwitch } from "./magnified";
 import { Chart, short } from "./plots";
 import type { LogPicture } from "./protocol";
@@ -17,11 +16,9 @@ export class LogView {
         private readonly make_worker: (listener: Partial<ConstructorParameters<typeof GyroClient>[2]>) => GyroClient,
         private readonly flag_names: () => string[],
     ) {
-        element("log-cancel").addEventListener("click", () => this.cancel());
-        element("log-again").addEventListener("click", () => this.read(false));
-        element("log-save").addEventListener("click", () => this.read(true));
+        element("log-again").addEventListener("click", () => this.read());
         element("log-close").addEventListener("click", () => {
-            this.cancel();
+            this.finish("", "closed");
             element("card-log").hidden = true;
         });
     }
@@ -30,37 +27,27 @@ export class LogView {
         this.file = file;
         element("card-log").hidden = false;
         element("card-log").scrollIntoView({ block: "start" });
-        this.read(false);
+        this.read();
     }
 
-    private read(for_saving: boolean): void {
+    private read(): void {
         const file = this.file;
         if (file === null) return;
         this.end_worker();
         this.say(`Reading ${file.name} …`, "reading");
-        if (!for_saving) {
-            element("log-result").hidden = true;
-            element("log-notes").replaceChildren();
-        }
+        element("log-result").hidden = true;
+        element("log-notes").replaceChildren();
         element<HTMLProgressElement>("log-progress").value = 0;
         const settings = lines_of("log-settings");
         this.worker = this.make_worker({
-            loaded: () => this.worker?.send({ kind: "read_log", file, settings, save: for_saving }),
+            loaded: () => this.worker?.send({ kind: "read_log", file, settings }),
             refused: ({ message }) => this.finish(message, "refused"),
             log_progress: ({ fraction, ticks }) => {
                 element<HTMLProgressElement>("log-progress").value = fraction;
                 this.say(`Reading ${file.name}: ${ticks} ticks …`, "reading");
             },
             log_read: ({ log }) => this.show(log),
-            log_angles: ({ name, text }) => {
-                save(`${name.replace(/\.[^.]*$/, "")}-angles.csv`, text);
-                this.finish(`The angles of ${name} are saved.`, "shown");
-            },
         });
-    }
-
-    private cancel(): void {
-        if (this.worker !== null) this.finish("Cancelled.", "cancelled");
     }
 
     private end_worker(): void {
@@ -79,7 +66,6 @@ export class LogView {
         element("log-work").hidden = state !== "reading";
         element("log-text").classList.toggle("wrong", state === "refused");
         element<HTMLButtonElement>("log-again").disabled = state === "reading";
-        element<HTMLButtonElement>("log-save").disabled = state === "reading" || state === "refused";
     }
 
     private make_charts() {
@@ -113,7 +99,8 @@ export class LogView {
         element("log-switches").hidden = log.picture === null;
         if (log.picture !== null) charts.last_switch.show(log.picture);
         this.show_flags(log.flags);
-        element("log-notes").replaceChildren(...[...log.notes, ...settings_note(log.settings)].map((note) => made("li", note)));
+        const settings = log.settings.length > 0 ? [`Settings that differ from the defaults: ${log.settings.join(", ")}`] : [];
+        element("log-notes").replaceChildren(...[...log.notes, ...settings].map((note) => made("li", note)));
         const switches = log.n_switches > 0 ? `, ${log.n_switches} switches (rms dP ${short(log.rms_dp_arcsec, 3)} arcsec)` : "";
         this.finish(`${log.name}: ${log.kind === "raw" ? "a raw log, compensated here" : "an angle log"}; ${log.ticks} ticks of ${short(log.tick_s * 1000)} ms, ${short(log.ticks * log.tick_s, 6)} s; ${log.gaps} gaps${switches}; accumulated angle ${short(log.angle_arcsec, 12)} arcsec.`, "shown");
     }
@@ -123,8 +110,4 @@ export class LogView {
         const items = flags.flatMap((n, bit) => (n > 0 ? [made("li", `${(names[bit] ?? `bit ${bit}`).replaceAll("_", " ")}: ${n}`)] : []));
         element("log-flags").replaceChildren(...(items.length > 0 ? items : [made("li", "nothing to report", { class: "good" })]));
     }
-}
-
-function settings_note(settings: string[]): string[] {
-    return settings.length > 0 ? [`Settings that differ from the defaults: ${settings.join(", ")}`] : [];
 }

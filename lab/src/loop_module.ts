@@ -11,17 +11,6 @@ export const enum View {
     log_switches,
 }
 
-// Of design_formulas.hpp.
-export const enum Budget {
-    as_printed,
-    worst_case,
-    expected,
-}
-export const enum IntervalLaw {
-    expected,
-    closed_form,
-}
-
 const now_numbers = 12;
 
 // What answers with a number is called as it is.
@@ -30,10 +19,6 @@ interface Exports {
     _initialize(): void;
     zlg_text(bytes: number): number;
     zlg_configure(): number;
-    zlg_other(wanted: number): void;
-    // What design_formulas.hpp has; arcsec/s, NaN where the theory has no answer.
-    zlg_drift(budget: Budget, interval_s: number, run_s: number, switch_error_arcsec: number): number;
-    zlg_interval(law: IntervalLaw, run_s: number, switch_error_arcsec: number): number;
     zlg_advance(halves: number): number;
     zlg_turn(rate_arcsec_s: number): number;
     zlg_let_go(): void; // all turns are forgotten
@@ -82,11 +67,7 @@ export class LoopModule {
     }
 
     // A new gyro, of one setting a line. Throws a Refusal with the program's message, and the gyro before stays.
-    //
-    // other  the settings, over these, of a second gyro on the same motion; null: there is none.
-    configure(settings: readonly string[], other: readonly string[] | null = null): void {
-        this.hand_over(other ?? []);
-        this.calls.zlg_other(other === null ? 0 : 1);
+    configure(settings: readonly string[]): void {
         this.hand_over(settings);
         this.done(this.calls.zlg_configure());
     }

@@ -3,7 +3,6 @@ import { GyroClient, type Listener } from "./client";
 import { Controls } from "./controls";
 import { element, marked } from "./elements";
 import { fault_buttons, type MadeFault, made_fault, words_without_alarm, with_fault } from "./faults";
-import { DesignView } from "./design_view";
 import { choose_file, on_drop } from "./files";
 import { follows_records } from "./follow";
 import { parse_fragment } from "./fragment";
@@ -14,10 +13,8 @@ import { LogView } from "./log_view";
 import { keep_charts, short } from "./plots";
 import type { Fault, Frame, Key, Schema, State } from "./protocol";
 import { never_s, RingDrawing, switches_again } from "./ring";
-import { choose_second_gyro, leave_out_second_gyro, listen_to_second_gyro, second_gyro } from "./second_gyro";
 import { Settings } from "./settings";
 import { share_dialog } from "./share";
-import { type Step, Tour } from "./tour";
 import { Views } from "./views";
 
 // The gyro of a page that is opened without one: it switches often, and begins where it has done so in either direction.
@@ -37,9 +34,7 @@ class Lab {
     private readonly views = new Views();
     private readonly ring = new RingDrawing(element("ring"), element("now"));
     private readonly client: GyroClient;
-    private readonly tour: Tour;
     private readonly log: LogView;
-    private readonly design = new DesignView((switch_error_arcsec) => this.client.send({ kind: "design", switch_error_arcsec }));
     private keys: Key[] = [];
     private flag_names: string[] = []; // of an angle log
     private controls: Controls | null = null;
@@ -55,14 +50,12 @@ class Lab {
     private readonly frames = new Frames((frame) => this.draw(frame), () => this.client.send({ kind: "seen" }));
 
     constructor() {
-        this.tour = new Tour(element("tour"), (step) => this.take_step(step), () => element("tour-start").focus({ preventScroll: true }));
         const worker = (listener: Partial<Listener>) => new GyroClient(element("worker").textContent!, element("module").textContent!, listener);
         this.log = new LogView(worker, () => this.flag_names);
         this.client = worker({
             loaded: ({ schema }) => this.loaded(schema),
             configured: ({ changed }) => this.configured(changed, !this.client.waits()),
             refused: ({ message, whole }) => this.refuse(message, whole),
-            designed: ({ design }) => this.design.show(design),
             frame: (frame) => this.frames.take(frame),
         });
         this.listen();
@@ -96,14 +89,13 @@ class Lab {
         this.asked = { settings, from_s, until_s, by_controls, fault };
         if (!by_controls) this.controls?.expect(settings);
         this.time_s = from_s;
-        this.client.configure({ settings, other: until_s === null ? second_gyro() : null, until_s, from_s, fault_s: fault?.at_s ?? null }, this.wants_to_run);
+        this.client.configure({ settings, until_s, from_s, fault_s: fault?.at_s ?? null }, this.wants_to_run);
     }
 
     private configured(changed: string[], is_newest: boolean): void {
         this.settings = changed;
         this.frames.forget();
         this.views.begin();
-        this.design.begin();
         if (!is_newest) return;
         this.asked.settings = this.settings;
         this.fault = this.asked.fault;
@@ -114,11 +106,6 @@ class Lab {
     }
 
     private refuse(message: string, whole: boolean): void {
-        // The gyro itself may be good: it goes on alone.
-        if (leave_out_second_gyro(message)) {
-            this.begin(this.asked.settings, this.asked);
-            return;
-        }
         this.asked = { ...this.asked, settings: this.settings, fault: this.fault };
         if (whole || !this.asked.by_controls) this.controls?.set(this.settings);
         if (!whole && !this.from_link) {
@@ -159,7 +146,6 @@ class Lab {
         document.documentElement.dataset.moduleBytes = String(frame.module_bytes);
         this.show_state(frame.state);
         this.views.show(frame);
-        this.design.follow(...this.views.switch_errors(), frame.state === "running");
         this.ring.show(frame);
         this.health?.show(frame.now[11], frame.raised);
         this.show_fault(frame);
@@ -191,16 +177,6 @@ class Lab {
         const from_s = this.repeat_s();
         const to_switch_s = this.to_switch_s(from_s);
         this.begin(with_fault(this.asked.settings, fault, from_s, to_switch_s), { from_s, fault: made_fault(fault, from_s, to_switch_s) });
-    }
-
-    private take_step(step: Step): void {
-        choose_second_gyro(step.other);
-        element<HTMLSelectElement>("window").value = step.window_s;
-        this.client.send({ kind: "window", window_s: Number(step.window_s) });
-        element<HTMLInputElement>("speed").value = String(Math.log10(step.speed));
-        this.send_speed();
-        this.wants_to_run = true;
-        this.begin(step.settings, { fault: null });
     }
 
     private send_speed(): void {
@@ -256,12 +232,10 @@ class Lab {
         });
         element("speed").addEventListener("input", () => this.send_speed());
         element("window").addEventListener("change", () => this.client.send({ kind: "window", window_s: Number(element<HTMLSelectElement>("window").value) }));
-        on_click("tour-start", () => this.tour.go(0));
         window.addEventListener("hashchange", () => this.open_link());
         choose_file(element("open-log"), element<HTMLInputElement>("log-file"), (file) => this.log.open(file));
         on_drop((file) => this.log.open(file));
         turn_by_hand((rate_arcsec_s) => this.client.send({ kind: "turn", rate_arcsec_s }));
-        listen_to_second_gyro(() => this.begin(this.asked.settings, { from_s: this.repeat_s() }));
         share_dialog(() => ({ settings: this.settings, time_s: this.time_s, turned: this.frame?.turned ?? false }));
     }
 }

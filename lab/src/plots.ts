@@ -10,7 +10,6 @@ export interface Line {
     bars?: boolean;
     steps?: boolean;
     points?: boolean;
-    only_points?: boolean;
 }
 
 export interface ChartOptions {
@@ -99,13 +98,6 @@ export class Chart {
         else this.plot?.setData(this.data);
     }
 
-    // Other names of the same lines.
-    name_lines(lines: Line[]): void {
-        if (lines.every((line, at) => line.label === this.options.lines[at].label)) return;
-        this.options.lines = lines;
-        this.make();
-    }
-
     make(): void {
         const options = this.uplot_options();
         // What the reader has hidden stays hidden.
@@ -152,8 +144,7 @@ export class Chart {
                         dash: line.dash,
                         spanGaps: false,
                         value: (_, value) => (value === null || value === undefined ? "" : `${short(value, line.digits ?? 4)} ${line.unit}`),
-                        points: { show: line.points ?? line.only_points ?? false, size: line.only_points ? 7 : 5 },
-                        ...(line.only_points ? { paths: () => null } : {}),
+                        points: { show: line.points ?? false, size: 5 },
                         ...(line.steps ? { paths: uPlot.paths.stepped!({ align: -1 }) } : {}),
                         ...(line.bars ? { paths: uPlot.paths.bars!({ size: [0.85, 40] }), fill: `${colour}55` } : {}),
                     };

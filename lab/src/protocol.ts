@@ -31,7 +31,6 @@ export type State = "running" | "paused" | "done" | "refused";
 
 export interface Gyro {
     settings: string[]; // `section.key=value`
-    other: string[] | null; // of a second gyro, over these
     until_s: string | null; // run to this time at full speed and stop
     from_s: number; // be at this time at once; 0: begin
     fault_s: number | null; // moment from which what a fault raises is watched
@@ -46,8 +45,7 @@ export type ToWorker =
     | { kind: "jump" } // to the end of the next switch
     | { kind: "turn"; rate_arcsec_s: number } // by hand, from now on
     | { kind: "window"; window_s: number } // of the signals that are shown
-    | { kind: "read_log"; file: File; settings: string[]; save: boolean } // save: its angles as a file, in place of a picture
-    | { kind: "design"; switch_error_arcsec: number | null } // null: not measured
+    | { kind: "read_log"; file: File; settings: string[] }
     | { kind: "seen" }; // a frame: the next may come
 
 // Columns of equal length.
@@ -94,20 +92,6 @@ export interface LogPicture {
     picture: SwitchPicture | null; // of the last switch
 }
 
-// What the theory says of the gyro, for charts. The last column of each has the gyro itself, the others nothing to do with it: NaN
-// where there is nothing.
-export interface Design {
-    run_s: number;
-    switch_error_arcsec: number;
-    is_measured: boolean;
-    interval_s: number; // of the gyro; NaN where its schedule chooses it
-    drift_arcsec_s: number; // expected, of that interval
-    best_s: number; // NaN where the theory does not cover the gyro
-    best_drift_arcsec_s: number;
-    drift: Columns; // interval, s; expected in a sixth of the run, in the run, in ten times the run; in the run by (7), at its worst end
-    interval: Columns; // length of the run, s; best interval, sqrt(dP t/Om), s
-}
-
 // Bits of health that were raised, in switches and else.
 export interface Raised {
     settled: number;
@@ -125,7 +109,7 @@ export interface Frame {
     turned: boolean;
     now: Float64Array; // LiveRun::now
     signals: Columns; // LiveRun's columns of the last window, thinned
-    error: Columns; // time, errors as read, by the paper, as configured, of the other gyro: the whole run, thinned
+    error: Columns; // time, errors as read, by the paper, as configured: the whole run, thinned
     picture: SwitchPicture | null; // of the last switch, where it was drawn since the frame before
     switches: SwitchRow[]; // that were added since the frame before
     allan: Columns; // tau, deviation as read, by the paper, as configured, arcsec/s
@@ -138,8 +122,6 @@ export type FromWorker =
     | { kind: "loaded"; schema: Schema }
     | { kind: "configured"; number: number; changed: string[] }
     | { kind: "refused"; number: number; message: string; whole: boolean } // what was to be configured, or the gyro in its run; whole: there is none any more that could go on
-    | { kind: "designed"; design: Design }
     | { kind: "log_progress"; fraction: number; ticks: number }
     | { kind: "log_read"; log: LogPicture }
-    | { kind: "log_angles"; name: string; text: Blob }
     | Frame;

@@ -1,10 +1,10 @@
 // What the worker remembers of the gyro's rows, to show it.
 import type { Columns, Raised, SwitchRow } from "./protocol";
-import { AllanDeviation, allan_columns, Ring, Thinned } from "./series";
+import { AllanDeviation, allan_columns, Envelope, Ring } from "./series";
 import { SwitchPictures } from "./switch_pictures";
 
 const signal_columns = 10;
-const angle_columns = 9;
+const angle_columns = 8;
 const switch_columns = 6;
 const newest_ticks = 32768;
 const most_points = 1200;
@@ -15,12 +15,12 @@ const time_column = 0;
 const detuning_column = 3;
 const health_column = 9;
 // Of angles.
-const error_columns = [5, 6, 7, 8];
+const error_columns = [5, 6, 7];
 
 export class Recorder {
     private readonly signal_rows = new Ring(signal_columns, newest_ticks);
     private readonly angle_rows = new Ring(angle_columns, newest_ticks);
-    private readonly errors = new Thinned(1024);
+    private readonly errors = new Envelope(1024);
     private readonly deviations: AllanDeviation[];
     private unsent: SwitchRow[] = [];
     has_new_switch = false; // among the rows taken last
@@ -47,7 +47,7 @@ export class Recorder {
         this.angle_rows.add(angles);
         for (let at = 0; at < angles.length; at += angle_columns) {
             const errors = error_columns.map((column) => angles[at + column]);
-            this.errors.add([(angles[at] + 1) * this.tick_s, ...errors]);
+            this.errors.add((angles[at] + 1) * this.tick_s, errors);
             this.deviations.forEach((deviation, which) => deviation.add(errors[which]));
         }
         for (let at = 0; at < switches.length; at += switch_columns) this.take_switch(switches.subarray(at, at + switch_columns));
@@ -80,7 +80,7 @@ export class Recorder {
     }
 
     error(): Columns {
-        return this.errors.columns(1 + error_columns.length);
+        return this.errors.columns(error_columns.length);
     }
 
     allan(): Columns {

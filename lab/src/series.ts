@@ -60,29 +60,6 @@ export class Ring {
     }
 }
 
-// A whole run: every stride-th row, the stride doubled whenever the table is full.
-export class Thinned {
-    private rows: number[][] = [];
-    private stride = 1;
-    private n = 0;
-
-    constructor(private readonly capacity: number) {}
-
-    add(row: number[]): void {
-        if (this.n++ % this.stride !== 0) return;
-        if (this.rows.length === this.capacity) {
-            this.rows = this.rows.filter((_, index) => index % 2 === 0);
-            this.stride *= 2;
-            if ((this.n - 1) % this.stride !== 0) return;
-        }
-        this.rows.push(row);
-    }
-
-    columns(count: number): Float64Array[] {
-        return Array.from({ length: count }, (_, column) => Float64Array.from(this.rows, (row) => row[column]));
-    }
-}
-
 // A whole run in a bounded number of stretches of equal length, each with the least and the greatest value of every column, so that
 // no peak is lost. The length is doubled whenever the table is full.
 export class Envelope {

@@ -28,20 +28,9 @@ export class Settings {
         private readonly changed: string[],
     ) {}
 
-    numbers(key: string): number[] {
-        return this.values(key).map(Number);
-    }
-
+    // Of a list its first.
     number(key: string): number {
-        return this.numbers(key)[0];
-    }
-
-    text(key: string): string {
-        return String(this.values(key)[0]);
-    }
-
-    private values(key: string): unknown[] {
         const found = given(this.changed, key);
-        return found.length > 0 ? found : values(this.keys.find((each) => `${each.section}.${each.name}` === key)!.default);
+        return Number((found.length > 0 ? found : values(this.keys.find((each) => `${each.section}.${each.name}` === key)!.default))[0]);
     }
 }

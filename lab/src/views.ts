@@ -18,18 +18,12 @@ export class Views {
     private readonly piezo = new Chart(element("plot-piezo"), { x: "time, s", y: "piezo, V", least_span: 4, height: 150, sync: "signals", lines: [{ label: "voltage at the piezo mirrors", colour: "--paper", unit: "V" }] });
     private readonly light = new Chart(element("plot-light"), { x: "time, s", y: "light, any unit", least_span: 100, height: 150, sync: "signals", lines: [{ label: "beam A", colour: "--ours", unit: "" }, { label: "beam B", colour: "--read", unit: "" }] });
     private readonly mode = new Chart(element("plot-mode"), { x: "time, s", y: "mode", height: 130, sync: "signals", y_range: [-1.3, 1.3], y_splits: [-1, 0, 1], lines: [{ label: "mode (0: loop open)", colour: "--true", unit: "", steps: true }] });
-    private readonly error = new Chart(element("plot-error"), { x: "time, s", y: "error, arcsec", least_span: 20, height: 260, lines: [...compared_lines("arcsec"), { label: "second gyro", colour: "--other", unit: "arcsec", dash: [5, 4] }] });
+    private readonly error = new Chart(element("plot-error"), { x: "time, s", y: "error, arcsec", least_span: 20, height: 260, lines: compared_lines("arcsec") });
     private readonly magnified = new MagnifiedSwitch("switch", "Error left in the angle, as configured", true);
     private readonly histogram = new Chart(element("plot-histogram"), { x: "error of a switch up to, arcsec", y: "switches", height: 220, x_names: size_names, lines: compared_lines("").map((line) => ({ ...line, bars: true })) });
     private readonly allan = new Chart(element("plot-allan"), { x: "averaging time, s", y: "deviation, deg/h", height: 220, log_x: true, log_y: true, lines: compared_lines("deg/h") });
     private counts = compensations.map(() => sizes.map(() => 0));
     private squares = [0, 0, 0];
-
-    // Of the configured compensation: switches, and the rms error they left.
-    switch_errors(): [number, number] {
-        const n = this.counts[2].reduce((sum, count) => sum + count, 0);
-        return [n, Math.sqrt(this.squares[2] / Math.max(1, n))];
-    }
 
     begin(): void {
         this.counts = compensations.map(() => sizes.map(() => 0));

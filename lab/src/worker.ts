@@ -1,5 +1,4 @@
 // The worker: it has the gyro, keeps its pace, and sends a frame whenever the page has drawn the one before.
-import { design_of } from "./design_charts";
 import { read_log } from "./log_reading";
 import { LoopModule, Refusal, View } from "./loop_module";
 import type { Frame, FromWorker, Gyro, Key, State, ToWorker } from "./protocol";
@@ -87,11 +86,8 @@ class Pace {
             case "turn":
                 this.hand.wanted_arcsec_s = message.rate_arcsec_s;
                 break;
-            case "design":
-                if (this.gyro !== null) scope.postMessage({ kind: "designed", design: design_of(this.module!, this.settings(), message.switch_error_arcsec) });
-                return;
             case "read_log":
-                read_log(this.module!, message, (answer) => scope.postMessage(answer));
+                read_log(this.module!, message.file, message.settings, (answer) => scope.postMessage(answer));
                 return;
             case "window":
                 this.window_s = message.window_s;
@@ -124,7 +120,7 @@ class Pace {
         // The later of two settings is in force.
         const settings = gyro.until_s === null ? gyro.settings : [...gyro.settings, `run.duration_s=${gyro.until_s}`];
         try {
-            module.configure(settings, gyro.other);
+            module.configure(settings);
         } catch (error) {
             this.refuse(number, error);
             return;
@@ -137,7 +133,7 @@ class Pace {
         this.gyro = gyro;
         this.number = number;
         const changed = module.changed().filter((setting) => gyro.until_s === null || !setting.startsWith("run.duration_s="));
-        this.tick_s = this.settings().number("gyro.tick_s");
+        this.tick_s = new Settings(this.keys, module.changed()).number("gyro.tick_s");
         this.recorder = new Recorder(this.tick_s, this.switching_bit, gyro.fault_s);
         this.end_halves = gyro.until_s !== null ? module.calls.zlg_run_halves() : Infinity;
         this.repeated_halves = gyro.until_s === null ? Math.floor(gyro.from_s / this.tick_s + 1e-6) * 2 : 0;
@@ -153,10 +149,6 @@ class Pace {
     private refuse(number: number, error: unknown): void {
         if (!(error instanceof Refusal)) throw error;
         scope.postMessage({ kind: "refused", number, message: error.message, whole: this.gyro === null });
-    }
-
-    private settings(): Settings {
-        return new Settings(this.keys, this.module!.changed());
     }
 
     private restart_pace(): void {

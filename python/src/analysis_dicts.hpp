@@ -2,6 +2,8 @@
 // Records that Python gives to the analysis, and results as it gets them.
 
 #include <optional>
+#include <string>
+#include <tuple>
 
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/mode_split.hpp>
@@ -11,14 +13,10 @@
 
 namespace zlg::python {
 
-// A record, whose numbers stay the arrays'.
-struct Samples {
-    deviations::SeriesKind what;
-    In<double> values;
-    std::optional<In<std::uint8_t>> valid;
+// A record, whose numbers stay the arrays': values, samples a second, kind, unit, and which are valid.
+using Samples = std::tuple<In<double>, double, std::string, std::string, std::optional<In<std::uint8_t>>>;
 
-    [[nodiscard]] deviations::Series series() const { return {what, span_of(values, "data"), span_of(valid, "valid")}; }
-};
+[[nodiscard]] deviations::Series series_of(const Samples& samples);
 
 [[nodiscard]] py::dict dict_of(const deviations::DeviationCurve& curve);
 [[nodiscard]] py::dict dict_of(const noise::NoiseFit& fit);

@@ -97,8 +97,8 @@ void write_text(const std::string& path, const std::string& text, bool force) {
 }  // namespace
 
 void bind_calibration(py::module_& m) {
-    m.def("calibrate", &calibrate, "names"_a, "held"_a, "rate_arcsec_s"_a, "said"_a, "progress"_a);
-    m.def("write_text", &write_text, "path"_a, "text"_a, "force"_a);
+    m.def("calibrate", &calibrate);
+    m.def("write_text", &write_text);
 }
 
 }  // namespace zlg::python

@@ -65,8 +65,8 @@ config::Config of_log(const config::Settings& settings, const std::string& name)
 void bind_config(py::module_& m) {
     py::class_<config::Config>(m, "CheckedConfig")
         .def(py::init(&of_pairs), "settings"_a, "sets"_a = std::vector<std::string>{})
-        .def_static("of_layers", &of_layers, "toml"_a, "source"_a, "sets"_a)
-        .def_static("of_log", &of_log, "settings"_a, "name"_a)
+        .def_static("of_layers", &of_layers)
+        .def_static("of_log", &of_log)
         .def("given", [](const config::Config& c) { return std::vector<std::string>(c.given.begin(), c.given.end()); })
         .def("toml", &config::to_toml)
         .def("settings", &config::to_settings);

@@ -36,11 +36,9 @@ void bind_control(py::module_& m) {
         .def_readonly("record", &GyroControlOutput::record)
         .def_readonly("health", &GyroControlOutput::health);
     py::class_<Control>(m, "Control")
-        .def(py::init<const config::Config&>(), "config"_a)
+        .def(py::init<const config::Config&>())
         .def("initial_actuator", [](const Control& c) { return core::initial_actuator(c.config); })
-        .def(
-            "step", [](Control& c, const core::SensorFrame& frame) { return core::step(c.config, c.state, frame); },
-            "frame"_a);
+        .def("step", [](Control& c, const core::SensorFrame& frame) { return core::step(c.config, c.state, frame); });
 }
 
 py::dict compensate(const py::dict& columns, const config::Config& config, const config::Settings& settings,
@@ -106,7 +104,7 @@ py::dict bits(const std::array<const char*, N>& names) {
 
 void bind_core(py::module_& m) {
     bind_control(m);
-    m.def("compensate", &compensate, "columns"_a, "config"_a, "settings"_a, "timer_hz"_a, "progress"_a);
+    m.def("compensate", &compensate);
     m.attr("angle_flags") = bits(core::angle_flag_names);
     m.attr("health_bits") = bits(core::health_bit_names);
 }

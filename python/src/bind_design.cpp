@@ -132,13 +132,12 @@ py::tuple choose_of(const std::string& text, const std::string& source_name, con
 }  // namespace
 
 void bind_design(py::module_& m) {
-    m.def("drift_arcsec_s", &drift, "config"_a, "run_s"_a, "interval_s"_a, "method"_a);
-    m.def("optimum", &best, "config"_a, "run_s"_a, "method"_a);
-    m.def("substitution_response", &response, "order"_a, "gap_ticks"_a, "points"_a, "extrapolate"_a, "tick_s"_a,
-          "frequency_hz"_a);
-    m.def("relock", &relock, "config"_a, "miss_lambda"_a, "ticks"_a);
-    m.def("choose", &choose_of, "text"_a, "source_name"_a, "sets"_a, "is_by_paper"_a, "threads"_a, "progress"_a);
-    m.def("design_gyro", &design_of, "config"_a);
+    m.def("drift_arcsec_s", &drift);
+    m.def("optimum", &best);
+    m.def("substitution_response", &response);
+    m.def("relock", &relock);
+    m.def("choose", &choose_of);
+    m.def("design_gyro", &design_of);
 }
 
 }  // namespace zlg::python

@@ -19,6 +19,13 @@ py::dict dict_of(const deviations::DeviationCurve& curve) {
     return d;
 }
 
+deviations::Series series_of(const Samples& samples) {
+    const auto& [values, rate_hz, data_type, unit, valid] = samples;
+    return {{deviations::data_kind_of(data_type), deviations::unit_of(unit), rate_hz},
+            span_of(values, "data"),
+            span_of(valid, "valid")};
+}
+
 namespace {
 
 using namespace deviations;
@@ -49,9 +56,12 @@ std::vector<std::int64_t> factors_of(const Taus& taus, int per_decade, bool drop
 }
 
 py::dict deviation_of(const std::string& kind, const Samples& samples, const Taus& taus, int per_decade,
-                      bool drop_long_taus, const DeviationOptions& options) {
+                      bool drop_long_taus, double confidence, double least_known_ratio, std::optional<int> noise,
+                      int threads) {
     const DeviationKind which = deviation_kind_of(kind);
-    const Series series = samples.series();
+    const DeviationOptions options{
+        .confidence = confidence, .least_known_ratio = least_known_ratio, .noise = noise, .threads = threads};
+    const Series series = series_of(samples);
     return dict_of(without_interpreter([&] {
         const AngleRecord record{series};
         const auto largest = largest_factor(which, record.n_intervals());
@@ -63,21 +73,7 @@ py::dict deviation_of(const std::string& kind, const Samples& samples, const Tau
 }  // namespace
 
 void bind_deviations(py::module_& m) {
-    py::class_<Samples>(m, "Samples")
-        .def(py::init([](In<double> values, double rate_hz, const std::string& data_type, const std::string& unit,
-                         std::optional<In<std::uint8_t>> valid) {
-                 return Samples{{data_kind_of(data_type), unit_of(unit), rate_hz}, std::move(values), std::move(valid)};
-             }),
-             "values"_a, "rate_hz"_a, "data_type"_a, "unit"_a, "valid"_a);
-    py::class_<DeviationOptions>(m, "DeviationOptions")
-        .def(py::init([](double confidence, double least_known_ratio, std::optional<int> noise, int threads) {
-                 return DeviationOptions{.confidence = confidence,
-                                         .least_known_ratio = least_known_ratio,
-                                         .noise = noise,
-                                         .threads = threads};
-             }),
-             "confidence"_a, "least_known_ratio"_a, "noise"_a, "threads"_a);
-    m.def("deviation", &deviation_of, "kind"_a, "samples"_a, "taus"_a, "per_decade"_a, "drop_long_taus"_a, "options"_a);
+    m.def("deviation", &deviation_of);
     // Angles that were bridged, guessed or distrusted are no measurements of the gyro's noise.
     m.attr("not_measured") = core::flag_extrapolated | core::flag_interpolated | core::flag_unrepaired |
                              core::flag_loop_unlocked | core::flag_invalid | core::flag_mode_mixed;

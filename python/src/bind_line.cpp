@@ -84,8 +84,8 @@ private:
 
 void bind_line(py::module_& m) {
     py::class_<Line>(m, "Line")
-        .def(py::init<const std::string&, int, std::optional<double>>(), "source"_a, "baud"_a, "duration_s"_a)
-        .def("batch", &Line::batch, "most_rows"_a, "patience_s"_a)
+        .def(py::init<const std::string&, int, std::optional<double>>())
+        .def("batch", &Line::batch)
         .def("stop", &Line::stop)
         .def("summary", &Line::summary);
     m.attr("default_baud") = logs::default_baud;

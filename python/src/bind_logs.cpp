@@ -1,4 +1,3 @@
-#include <array>
 #include <utility>
 
 #include <zlg/config/schema.hpp>
@@ -16,17 +15,9 @@ namespace {
 constexpr std::size_t rows_per_report = 1 << 16;  // between two reports of progress
 
 std::string kind(const std::string& path) {
-    switch (logs::recognise(path)) {
-        case logs::LogKind::raw_csv:
-        case logs::LogKind::raw_hdf5:
-            return "raw";
-        case logs::LogKind::angle_csv:
-        case logs::LogKind::angle_hdf5:
-            return "angles";
-        case logs::LogKind::unknown:
-            break;
-    }
-    return "unknown";
+    using enum logs::LogKind;
+    const logs::LogKind found = logs::recognise(path);
+    return found == unknown ? "unknown" : found == raw_csv || found == raw_hdf5 ? "raw" : "angles";
 }
 
 // `open` makes the reader.
@@ -169,12 +160,12 @@ void write_angles(const std::string& path, const py::dict& columns, double tick_
 
 void bind_logs(py::module_& m) {
     m.attr("format_version") = logs::format_version;
-    m.def("log_kind", &kind, "path"_a);
-    m.def("read_raw", &read_raw, "path"_a, "light"_a, "progress"_a);
-    m.def("write_raw", &write_raw, "path"_a, "columns"_a, "settings"_a, "timer_hz"_a, "force"_a, "progress"_a);
-    m.def("read_foreign", &read_foreign, "path"_a, "said"_a, "axes"_a, "progress"_a);
-    m.def("read_angles", &read_angles, "path"_a, "progress"_a);
-    m.def("write_angles", &write_angles, "path"_a, "columns"_a, "tick_s"_a, "settings"_a, "force"_a, "progress"_a);
+    m.def("log_kind", &kind);
+    m.def("read_raw", &read_raw);
+    m.def("write_raw", &write_raw);
+    m.def("read_foreign", &read_foreign);
+    m.def("read_angles", &read_angles);
+    m.def("write_angles", &write_angles);
 }
 
 }  // namespace zlg::python

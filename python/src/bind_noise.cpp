@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <zlg/calibration/rate_table.hpp>
 #include <zlg/noise/imu_yaml.hpp>
 #include <zlg/noise/mode_split.hpp>
@@ -10,6 +8,9 @@
 #include "analysis_dicts.hpp"
 #include "bind.hpp"
 #include "fields_dict.hpp"
+
+BOOST_HANA_ADAPT_STRUCT(zlg::noise::NoiseTerms, quantisation_arcsec, angle_random_walk_arcsec_sqrt_s, filter_time_s,
+                        bias_instability_arcsec_s, rate_random_walk_arcsec_s_sqrt_s, ramp_arcsec_s2);
 
 namespace zlg::python {
 
@@ -26,6 +27,22 @@ py::dict dict_of(const noise::ModeSplit& split) {
     return d;
 }
 
+namespace {
+
+using Pairs = std::vector<std::pair<double, double>>;
+
+py::dict terms_dict(const noise::NoiseTerms& terms) {
+    Pairs markov, sines;
+    for (const noise::MarkovNoise& each : terms.markov) markov.emplace_back(each.deviation_arcsec_s, each.time_s);
+    for (const noise::SineTerm& each : terms.sines) sines.emplace_back(each.amplitude_arcsec_s, each.frequency_hz);
+    py::dict d = fields_dict(terms);
+    d["markov"] = markov;
+    d["sines"] = sines;
+    return d;
+}
+
+}  // namespace
+
 py::dict dict_of(const noise::NoiseFit& fit) {
     py::list fitted;
     for (const noise::FittedTerm& term : fit.fitted) {
@@ -37,7 +54,7 @@ py::dict dict_of(const noise::NoiseFit& fit) {
         fitted.append(t);
     }
     py::dict d = fields_dict(fit);
-    d["terms"] = fit.terms;
+    d["terms"] = terms_dict(fit.terms);
     d["fitted"] = fitted;
     d["tau_s"] = column(fit.points, &noise::FitPoint::tau_s);
     d["measured"] = column(fit.points, &noise::FitPoint::measured);
@@ -52,7 +69,7 @@ using namespace deviations;
 using namespace noise;
 
 py::dict fit(const Samples& samples, bool markov, int most_sines, double least_known_ratio, int threads) {
-    const Series series = samples.series();
+    const Series series = series_of(samples);
     return dict_of(without_interpreter([&] {
         return fit_noise(
             series,
@@ -60,92 +77,37 @@ py::dict fit(const Samples& samples, bool markov, int most_sines, double least_k
     }));
 }
 
-using Pairs = std::vector<std::pair<double, double>>;
-
-// A list of terms with two numbers each as pairs, which are read and assigned as a whole.
-template <class Term>
-void add_pairs(py::class_<NoiseTerms>& terms, const char* name, std::vector<Term> NoiseTerms::*member,
-               double Term::*first, double Term::*second, const char* meaning) {
-    terms.def_property(
-        name,
-        [=](const NoiseTerms& t) {
-            Pairs pairs;
-            for (const Term& each : t.*member) pairs.emplace_back(each.*first, each.*second);
-            return pairs;
-        },
-        [=](NoiseTerms& t, const Pairs& pairs) {
-            (t.*member).clear();
-            for (const auto& [a, b] : pairs) (t.*member).push_back({a, b});
-        },
-        meaning);
+NoiseTerms terms_of(const py::object& given) {
+    NoiseTerms terms;
+    study::for_each_field<NoiseTerms>(
+        [&](const char* name, auto get) { get(terms) = py::cast<double>(given.attr(name)); });
+    for (const auto& [deviation, time] : py::cast<Pairs>(given.attr("markov")))
+        terms.markov.push_back({deviation, time});
+    for (const auto& [amplitude, frequency] : py::cast<Pairs>(given.attr("sines")))
+        terms.sines.push_back({amplitude, frequency});
+    return terms;
 }
 
-// Those that are there.
-std::string text_of(const NoiseTerms& t) {
-    std::string text;
-    const auto add = [&text](const char* name, double value) {
-        if (value != 0.0) text += fmt::format("{}{}={:.6g}", text.empty() ? "" : ", ", name, value);
-    };
-    add("quantisation_arcsec", t.quantisation_arcsec);
-    add("angle_random_walk_arcsec_sqrt_s", t.angle_random_walk_arcsec_sqrt_s);
-    add("filter_time_s", t.filter_time_s);
-    add("bias_instability_arcsec_s", t.bias_instability_arcsec_s);
-    add("rate_random_walk_arcsec_s_sqrt_s", t.rate_random_walk_arcsec_s_sqrt_s);
-    add("ramp_arcsec_s2", t.ramp_arcsec_s2);
-    for (const MarkovNoise& each : t.markov)
-        text +=
-            fmt::format("{}markov=({:.6g}, {:.6g})", text.empty() ? "" : ", ", each.deviation_arcsec_s, each.time_s);
-    for (const SineTerm& each : t.sines)
-        text += fmt::format("{}sine=({:.6g}, {:.6g})", text.empty() ? "" : ", ", each.amplitude_arcsec_s,
-                            each.frequency_hz);
-    return fmt::format("NoiseTerms({})", text);
+py::dict terms_of_sheet(double quantisation, double walk, double instability, double rate_walk, double ramp) {
+    return terms_dict(noise::terms_of(DataSheet{quantisation, walk, instability, rate_walk, ramp}));
 }
 
 void bind_terms(py::module_& m) {
-    py::class_<NoiseTerms> terms{m, "NoiseTerms", "The terms of a gyro's noise, arcsec and seconds; 0: absent."};
-    add_pairs(terms, "markov", &NoiseTerms::markov, &MarkovNoise::deviation_arcsec_s, &MarkovNoise::time_s,
-              "Pairs (deviation_arcsec_s, time_s); assign a whole list.");
-    add_pairs(terms, "sines", &NoiseTerms::sines, &SineTerm::amplitude_arcsec_s, &SineTerm::frequency_hz,
-              "Pairs (amplitude_arcsec_s, frequency_hz); assign a whole list.");
-    terms.def(py::init<>())
-        .def("__repr__", &text_of)
-        .def_readwrite("quantisation_arcsec", &NoiseTerms::quantisation_arcsec)
-        .def_readwrite("angle_random_walk_arcsec_sqrt_s", &NoiseTerms::angle_random_walk_arcsec_sqrt_s)
-        .def_readwrite("filter_time_s", &NoiseTerms::filter_time_s)
-        .def_readwrite("bias_instability_arcsec_s", &NoiseTerms::bias_instability_arcsec_s)
-        .def_readwrite("rate_random_walk_arcsec_s_sqrt_s", &NoiseTerms::rate_random_walk_arcsec_s_sqrt_s)
-        .def_readwrite("ramp_arcsec_s2", &NoiseTerms::ramp_arcsec_s2)
-        .def(
-            "allan_variance",
-            [](const NoiseTerms& t, const In<double>& tau_s) {
-                return of_each([&t](double tau) { return allan_variance(t, tau); }, tau_s);
-            },
-            "tau_s"_a, "Allan variance of the rate at tau_s, (arcsec/s)^2, shape of tau_s.")
-        .def(
-            "rate_spectrum",
-            [](const NoiseTerms& t, const In<double>& frequency_hz, double rate_hz) {
-                return of_each([&](double f) { return rate_spectrum(t, f, rate_hz); }, frequency_hz);
-            },
-            "frequency_hz"_a, "rate_hz"_a, "Two-sided spectrum of the rate, (arcsec/s)^2/Hz, shape of frequency_hz.");
-}
-
-void bind_units(py::module_& m) {
-    m.def(
-        "data_sheet", [](const NoiseTerms& terms) { return fields_dict(data_sheet(terms)); }, "terms"_a);
-    m.def(
-        "terms_of_sheet",
-        [](double quantisation, double walk, double instability, double rate_walk, double ramp) {
-            return terms_of(DataSheet{quantisation, walk, instability, rate_walk, ramp});
-        },
-        "quantisation_arcsec"_a, "angle_random_walk_deg_sqrt_h"_a, "bias_instability_deg_h"_a,
-        "rate_random_walk_deg_h_sqrt_h"_a, "ramp_deg_h_h"_a);
-    m.def(
-        "discrete_noise",
-        [](const NoiseTerms& terms, double rate_hz) { return fields_dict(discrete_noise(terms, rate_hz)); }, "terms"_a,
-        "rate_hz"_a);
-    m.def(
-        "imu_yaml", [](const NoiseTerms& terms, double rate_hz) { return imu_yaml(kalibr_gyro(terms, rate_hz)); },
-        "terms"_a, "rate_hz"_a);
+    m.def("allan_variance", [](const py::object& given, const In<double>& tau_s) {
+        const NoiseTerms terms = terms_of(given);
+        return of_each([&terms](double tau) { return allan_variance(terms, tau); }, tau_s);
+    });
+    m.def("rate_spectrum", [](const py::object& given, const In<double>& frequency_hz, double rate_hz) {
+        const NoiseTerms terms = terms_of(given);
+        return of_each([&](double f) { return rate_spectrum(terms, f, rate_hz); }, frequency_hz);
+    });
+    m.def("data_sheet", [](const py::object& terms) { return fields_dict(data_sheet(terms_of(terms))); });
+    m.def("terms_of_sheet", &terms_of_sheet);
+    m.def("discrete_noise", [](const py::object& terms, double rate_hz) {
+        return fields_dict(discrete_noise(terms_of(terms), rate_hz));
+    });
+    m.def("imu_yaml",
+          [](const py::object& terms, double rate_hz) { return imu_yaml(kalibr_gyro(terms_of(terms), rate_hz)); });
 }
 
 py::tuple spectrum(const In<double>& rates, double rate_hz, std::size_t piece, double least_known_ratio) {
@@ -173,11 +135,10 @@ py::dict table(const In<double>& input, const In<double>& output, std::int64_t s
 
 void bind_noise(py::module_& m) {
     bind_terms(m);
-    bind_units(m);
-    m.def("fit_noise", &fit, "samples"_a, "markov"_a, "most_sines"_a, "least_known_ratio"_a, "threads"_a);
-    m.def("welch_spectrum", &spectrum, "rates_arcsec_s"_a, "rate_hz"_a, "piece"_a, "least_known_ratio"_a);
-    m.def("split_modes", &modes, "rates_arcsec_s"_a, "mode"_a, "rate_hz"_a, "bridged_arcsec_s"_a, "settling_samples"_a);
-    m.def("rate_table", &table, "input_arcsec_s"_a, "output"_a, "settling_samples"_a, "earth_arcsec_s"_a);
+    m.def("fit_noise", &fit);
+    m.def("welch_spectrum", &spectrum);
+    m.def("split_modes", &modes);
+    m.def("rate_table", &table);
 }
 
 }  // namespace zlg::python

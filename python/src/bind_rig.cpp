@@ -54,30 +54,22 @@ py::dict advance(Loop& shared, std::int64_t halves, bool light, const py::object
 void bind_rig(py::module_& m) {
     py::class_<Loop>(m, "ClosedLoop")
         .def(py::init([](const config::Config& config, const std::optional<twin::Motion>& motion) {
-                 return Loop{rig::ClosedLoop{config, motion ? *motion : recorded::motion(config)}};
-             }),
-             "config"_a, "motion"_a)
-        .def("advance", &advance, "halves"_a, "light"_a, "progress"_a);
-    m.def(
-        "run_ticks",
-        [](const config::Config& config, const std::optional<twin::Motion>& motion) {
-            return rig::run_ticks(config, motion ? *motion : recorded::motion(config));
-        },
-        "config"_a, "motion"_a);
-    m.def(
-        "resolved",
-        [](const config::Config& config) {
-            study::Resolved made;
-            {
-                const py::gil_scoped_release released;
-                made = study::resolved(config);
-            }
-            return py::make_tuple(made.config, made.notes, made.warnings);
-        },
-        "config"_a);
-    m.def("calibrated_by_laser", &rig::calibrated_by_laser, "config"_a, py::call_guard<py::gil_scoped_release>());
-    m.def("angle_settings", &rig::angle_settings, "config"_a);
-    m.def("without_switching", &rig::without_switching, "config"_a);
+            return Loop{rig::ClosedLoop{config, motion ? *motion : recorded::motion(config)}};
+        }))
+        .def("advance", &advance);
+    m.def("run_ticks", [](const config::Config& config, const std::optional<twin::Motion>& motion) {
+        return rig::run_ticks(config, motion ? *motion : recorded::motion(config));
+    });
+    m.def("resolved", [](const config::Config& config) {
+        study::Resolved made;
+        {
+            const py::gil_scoped_release released;
+            made = study::resolved(config);
+        }
+        return py::make_tuple(made.config, made.notes, made.warnings);
+    });
+    m.def("calibrated_by_laser", &rig::calibrated_by_laser, py::call_guard<py::gil_scoped_release>());
+    m.def("angle_settings", &rig::angle_settings);
     m.attr("timer_hz") = rig::timer_hz;
 }
 

@@ -1,6 +1,5 @@
 #include <zlg/acceptance/report.hpp>
 #include <zlg/config/config.hpp>
-#include <zlg/paper/paper.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/rig/refusal.hpp>
 #include <zlg/study/analyze.hpp>
@@ -69,43 +68,23 @@ py::dict run(const config::Config& config, const std::vector<std::string>& warni
     return d;
 }
 
-py::dict paper(const config::Config& config, int threads, int switches_per_point, const py::object& progress) {
-    const Progress notify{progress};
-    paper::Paper result;
-    std::string html;
-    {
-        const py::gil_scoped_release released;
-        result = paper::recompute_paper({.config = config,
-                                         .threads = threads,
-                                         .switches_per_point = switches_per_point,
-                                         .on_progress = std::cref(notify)});
-        html = report::html(paper::paper_page(result));
-    }
-    py::list claims;
-    for (const paper::Claim& c : result.claims)
-        claims.append(py::dict("where"_a = c.where, "claim"_a = c.claim, "verdict"_a = paper::verdict_name(c.verdict),
-                               "finding"_a = c.finding));
-    return py::dict("claims"_a = claims, "chi2_per_dof"_a = result.chi2_per_dof, "page"_a = html);
+// Name, group, rate, rates, mode, bridged rates, phase and warnings.
+using Axis = std::tuple<std::string, std::string, double, In<double>, std::optional<In<std::int8_t>>,
+                        std::optional<In<double>>, std::optional<In<double>>, std::vector<std::string>>;
+
+study::AxisRecord record_of(const Axis& axis) {
+    const auto& [name, group, rate_hz, rates, mode, bridged, phase, warnings] = axis;
+    const auto copied = [](const auto& span) { return std::vector(span.begin(), span.end()); };
+    return {.name = name,
+            .group = group,
+            .holds = "rates in arcsec/s",
+            .rate_hz = rate_hz,
+            .rates_arcsec_s = copied(span_of(rates, "rates_arcsec_s")),
+            .mode = copied(span_of(mode, "mode")),
+            .bridged_arcsec_s = copied(span_of(bridged, "bridged_arcsec_s")),
+            .phase_arcsec = copied(span_of(phase, "phase_arcsec")),
+            .warnings = warnings};
 }
-
-struct Axes {
-    std::vector<study::AxisRecord> records;
-
-    void add(const std::string& name, const std::string& group, double rate_hz, const In<double>& rates,
-             const std::optional<In<std::int8_t>>& mode, const std::optional<In<double>>& bridged,
-             const std::optional<In<double>>& phase, const std::vector<std::string>& warnings) {
-        const auto copied = [](const auto& span) { return std::vector(span.begin(), span.end()); };
-        records.push_back({.name = name,
-                           .group = group,
-                           .holds = "rates in arcsec/s",
-                           .rate_hz = rate_hz,
-                           .rates_arcsec_s = copied(span_of(rates, "rates_arcsec_s")),
-                           .mode = copied(span_of(mode, "mode")),
-                           .bridged_arcsec_s = copied(span_of(bridged, "bridged_arcsec_s")),
-                           .phase_arcsec = copied(span_of(phase, "phase_arcsec")),
-                           .warnings = warnings});
-    }
-};
 
 py::list list_of(const std::vector<deviations::DeviationCurve>& curves) {
     py::list all;
@@ -125,11 +104,11 @@ py::dict of(const study::AxisResult& axis) {
     return d;
 }
 
-// The records are taken out of `axes`.
-py::dict analyze(const config::Config& config, Axes& axes, std::int64_t settling_samples, int threads,
-                 const py::object& progress) {
+py::dict analyze(const config::Config& config, const std::vector<Axis>& axes, std::int64_t settling_samples,
+                 int threads, const py::object& progress) {
     const Progress notify{progress};
-    std::vector<study::AxisRecord> records = std::move(axes.records);
+    std::vector<study::AxisRecord> records;
+    for (const Axis& axis : axes) records.push_back(record_of(axis));
     study::AnalysisResult result;
     std::string html;
     {
@@ -166,14 +145,9 @@ py::tuple accept(const std::string& plan, const config::Config& said, int thread
 }  // namespace
 
 void bind_study(py::module_& m) {
-    m.def("run", &run, "config"_a, "warnings"_a, "raw"_a, "angles"_a, "page"_a, "threads"_a, "progress"_a);
-    py::class_<Axes>(m, "Axes")
-        .def(py::init<>())
-        .def("add", &Axes::add, "name"_a, "group"_a, "rate_hz"_a, "rates_arcsec_s"_a, "mode"_a, "bridged_arcsec_s"_a,
-             "phase_arcsec"_a, "warnings"_a);
-    m.def("analyze", &analyze, "config"_a, "axes"_a, "settling_samples"_a, "threads"_a, "progress"_a);
-    m.def("accept", &accept, "plan"_a, "said"_a, "threads"_a, "progress"_a);
-    m.def("paper", &paper, "config"_a, "threads"_a, "switches_per_point"_a, "progress"_a);
+    m.def("run", &run);
+    m.def("analyze", &analyze);
+    m.def("accept", &accept);
 }
 
 }  // namespace zlg::python

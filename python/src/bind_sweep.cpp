@@ -76,9 +76,8 @@ py::tuple read_sweep(const std::string& path) {
 }  // namespace
 
 void bind_sweep(py::module_& m) {
-    m.def("sweep", &run_sweep, "description"_a, "source_name"_a, "out"_a, "part"_a, "parts"_a, "threads"_a, "force"_a,
-          "progress"_a);
-    m.def("read_sweep", &read_sweep, "path"_a);
+    m.def("sweep", &run_sweep);
+    m.def("read_sweep", &read_sweep);
 }
 
 }  // namespace zlg::python

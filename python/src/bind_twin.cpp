@@ -4,10 +4,17 @@
 #include <zlg/config/schema.hpp>
 #include <zlg/recorded/motion.hpp>
 #include <zlg/rig/wiring.hpp>
+#include <zlg/study/fields.hpp>
 #include <zlg/twin/twin.hpp>
 
 #include "arrays.hpp"
 #include "bind.hpp"
+
+BOOST_HANA_ADAPT_STRUCT(zlg::core::SensorFrame, sequence, timer_ticks, counter, bias_sign, polarity, loop_closed,
+                        piezo_v, coil_current_a, temperature_c, status, has_fringe, fringe_quarter, fringe_c, fringe_s);
+BOOST_HANA_ADAPT_STRUCT(zlg::core::ActuatorFrame, loop_closed, polarity, edge_offset_ticks);
+BOOST_HANA_ADAPT_STRUCT(zlg::twin::TwinTruth, dtheta_arcsec, false_relock_arcsec, detuning_end_lambda, perimeter_v,
+                        rounding_arcsec, random_walk_arcsec, lit);
 
 namespace zlg::python {
 namespace {
@@ -48,32 +55,26 @@ py::array_t<float> beam(const std::array<float, core::max_light_samples>& sample
     return as_array(std::vector<float>{samples.begin(), samples.begin() + n});
 }
 
+template <class Struct>
+py::class_<Struct> add_members(py::class_<Struct> type) {
+    study::for_each_field<Struct>([&type](const char* name, auto get) {
+        using Value = std::remove_cvref_t<decltype(get(std::declval<Struct&>()))>;
+        type.def_property(
+            name, [get](const Struct& s) { return get(s); }, [get](Struct& s, const Value& value) { get(s) = value; });
+    });
+    return type;
+}
+
 void bind_frames(py::module_& m) {
-    py::class_<SensorFrame>(m, "SensorFrame", "What the gyro's electronics latch at the end of a half-period.")
+    add_members(
+        py::class_<SensorFrame>{m, "SensorFrame", "What the gyro's electronics latch at the end of a half-period."})
         .def(py::init<>())
-        .def_readwrite("sequence", &SensorFrame::sequence)
-        .def_readwrite("timer_ticks", &SensorFrame::timer_ticks)
-        .def_readwrite("counter", &SensorFrame::counter)
-        .def_readwrite("bias_sign", &SensorFrame::bias_sign)
-        .def_readwrite("polarity", &SensorFrame::polarity)
-        .def_readwrite("loop_closed", &SensorFrame::loop_closed)
-        .def_readwrite("piezo_v", &SensorFrame::piezo_v)
-        .def_readwrite("coil_current_a", &SensorFrame::coil_current_a)
-        .def_readwrite("temperature_c", &SensorFrame::temperature_c)
-        .def_readwrite("status", &SensorFrame::status)
-        .def_readwrite("has_fringe", &SensorFrame::has_fringe)
-        .def_readwrite("fringe_quarter", &SensorFrame::fringe_quarter)
-        .def_readwrite("fringe_c", &SensorFrame::fringe_c)
-        .def_readwrite("fringe_s", &SensorFrame::fringe_s)
         .def_property_readonly("light_a", [](const SensorFrame& f) { return beam(f.light_a, f.n_light); })
         .def_property_readonly("light_b", [](const SensorFrame& f) {
             return beam(f.light_b, f.has_light_b ? f.n_light : std::uint8_t{0});
         });
-    py::class_<ActuatorFrame>(m, "ActuatorFrame", "What the processor commands for the next half-period.")
+    add_members(py::class_<ActuatorFrame>{m, "ActuatorFrame", "What the processor commands for the next half-period."})
         .def(py::init<>())
-        .def_readwrite("loop_closed", &ActuatorFrame::loop_closed)
-        .def_readwrite("polarity", &ActuatorFrame::polarity)
-        .def_readwrite("edge_offset_ticks", &ActuatorFrame::edge_offset_ticks)
         .def_property(
             "set_point_v",
             [](const ActuatorFrame& f) {
@@ -114,17 +115,8 @@ std::pair<SensorFrame, twin::TwinTruth> advance_twin(twin::Twin& twin, const Act
 void bind_twin(py::module_& m) {
     bind_motion(m);
     bind_frames(m);
-    py::class_<twin::TwinTruth>(m, "TwinTruth", "What happened in a half-period and no gyro knows.")
-        .def_readonly("dtheta_arcsec", &twin::TwinTruth::dtheta_arcsec)
-        .def_readonly("false_relock_arcsec", &twin::TwinTruth::false_relock_arcsec)
-        .def_readonly("detuning_end_lambda", &twin::TwinTruth::detuning_end_lambda)
-        .def_readonly("perimeter_v", &twin::TwinTruth::perimeter_v)
-        .def_readonly("rounding_arcsec", &twin::TwinTruth::rounding_arcsec)
-        .def_readonly("random_walk_arcsec", &twin::TwinTruth::random_walk_arcsec)
-        .def_readonly("lit", &twin::TwinTruth::lit);
-    py::class_<twin::Twin>(m, "Twin")
-        .def(py::init(&twin_of), "config"_a, "motion"_a = py::none())
-        .def("advance", &advance_twin, "actuator"_a);
+    add_members(py::class_<twin::TwinTruth>{m, "TwinTruth", "What happened in a half-period and no gyro knows."});
+    py::class_<twin::Twin>(m, "Twin").def(py::init(&twin_of)).def("advance", &advance_twin);
 }
 
 }  // namespace zlg::python

@@ -5,7 +5,7 @@
 
 Modules: `acceptance`, `config`, `logs`, `twin`, `core`, `rig`, `design`, `analysis`, `calibration`, `line`, `study`, `sweeps`. Arrays are NumPy's; what C++ computed is handed over
 without a copy, and contiguous arrays of the right type are read where they are. Names carry their unit; 1 arcsec/s is 1 deg/h.
-Long calls release the interpreter. `run`, `simulate`, `compensate`, `calibrate`, `paper`, `analyze`, `sweep` and the readers and writers of logs
+Long calls release the interpreter. `run`, `simulate`, `compensate`, `calibrate`, `analyze`, `sweep` and the readers and writers of logs
 take `progress`, a function of the fraction done, and end on Ctrl-C, as `follow` does; a deviation, a fit and `design_gyro` go on to their end.
 """
 
@@ -17,54 +17,18 @@ except ImportError as error:
     if not needed:
         raise
     raise ImportError(f"{error}; of Debian the wheel needs: apt install {' '.join(sorted(needed))}") from error
-from . import acceptance, analysis, calibration, config, core, design, line, logs, rig, study, sweeps, twin
-from ._zlg import ConfigError, DesignError, Error, FormatError, IoError, MappingError, SeriesError
-from .acceptance import Acceptance, accept
-from .calibration import Calibration, calibrate
-from .config import Config
-from .line import follow
-from .logs import convert
-from .rig import simulate
-from .core import compensate
-from .study import RunResult, analyze, read, run
-from .sweeps import read_sweep, sweep
+from . import acceptance as acceptance, analysis as analysis, calibration as calibration, config as config, core as core
+from . import design as design, line as line, logs as logs, rig as rig, study as study, sweeps as sweeps, twin as twin
+from ._zlg import ConfigError as ConfigError, DesignError as DesignError, Error as Error, FormatError as FormatError
+from ._zlg import IoError as IoError, MappingError as MappingError, SeriesError as SeriesError
+from .acceptance import Acceptance as Acceptance, accept as accept
+from .calibration import Calibration as Calibration, calibrate as calibrate
+from .config import Config as Config
+from .line import follow as follow
+from .logs import convert as convert
+from .rig import simulate as simulate
+from .core import compensate as compensate
+from .study import RunResult as RunResult, analyze as analyze, read as read, run as run
+from .sweeps import read_sweep as read_sweep, sweep as sweep
 
 __version__: str = _zlg.version
-
-__all__ = [
-    "Acceptance",
-    "Calibration",
-    "Config",
-    "ConfigError",
-    "DesignError",
-    "Error",
-    "FormatError",
-    "IoError",
-    "MappingError",
-    "RunResult",
-    "SeriesError",
-    "__version__",
-    "accept",
-    "acceptance",
-    "analysis",
-    "analyze",
-    "calibrate",
-    "calibration",
-    "compensate",
-    "config",
-    "convert",
-    "core",
-    "design",
-    "follow",
-    "line",
-    "logs",
-    "read",
-    "read_sweep",
-    "rig",
-    "run",
-    "simulate",
-    "study",
-    "sweep",
-    "sweeps",
-    "twin",
-]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
 import warnings
 from collections.abc import Iterable
 from typing import Any, Callable, Optional, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from ._shown import Row, Shown
 
 T = TypeVar("T")
 Progress = Optional[Callable[[float], object]]
@@ -17,7 +18,7 @@ Progress = Optional[Callable[[float], object]]
 def _of_type(hint: Any, value: Any) -> Any:
     if get_origin(hint) is Union:  # Optional
         hint = get_args(hint)[0]
-    if isinstance(value, dict) and isinstance(hint, type) and dataclasses.is_dataclass(hint):
+    if isinstance(value, dict) and isinstance(hint, type) and issubclass(hint, Shown):
         return made_of(hint, value)
     if isinstance(value, list) and get_origin(hint) is list:
         return [_of_type(get_args(hint)[0], each) for each in value]
@@ -25,16 +26,10 @@ def _of_type(hint: Any, value: Any) -> Any:
 
 
 def made_of(kind: type[T], columns: dict[str, Any]) -> T:
-    """An instance of the dataclass from the columns that bear its field names; nested dictionaries become nested dataclasses."""
+    """An instance of the dataclass from the columns that bear its field names, a Row of all; nested dictionaries by their types."""
     types = get_type_hints(kind)
-    described: Any = kind  # for the stubs of later Pythons not every class has fields
-    names = {field.name for field in dataclasses.fields(described)}
-    return kind(**{name: _of_type(types[name], value) for name, value in columns.items() if name in names})
-
-
-def columns_of(log: Any) -> dict[str, Any]:
-    """The members by their names, not copied."""
-    return {field.name: getattr(log, field.name) for field in dataclasses.fields(log)}
+    names = columns if issubclass(kind, Row) else types
+    return kind(**{name: _of_type(types.get(name), value) for name, value in columns.items() if name in names})
 
 
 def warn_each(reasons: Iterable[str]) -> None:

@@ -100,9 +100,9 @@ def deviation(
     noise       exponent of the rate's spectrum, 2 .. -4; default: identified from the data
     Raises SeriesError: no sample, nothing known, all equal, another unit, no tau with a term.
     """
-    samples = _zlg.Samples(floats(data), rate_hz, data_type, unit, mask(valid))
-    options = _zlg.DeviationOptions(confidence, least_known_ratio, noise, threads)
-    return made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), per_decade, False, options))
+    samples = (floats(data), rate_hz, data_type, unit, mask(valid))
+    options = (confidence, least_known_ratio, noise, threads)
+    return made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), per_decade, False, *options))
 
 
 class Estimator(Protocol):
@@ -122,9 +122,8 @@ def _estimator(kind: str, name: str) -> Estimator:
         if data_type is None:
             raise TypeError('data_type must be given: "increments", "rate" (or "freq") or "phase"')
         called = "rate" if data_type == "freq" else data_type
-        samples = _zlg.Samples(floats(data), rate, called, "1", mask(valid))
-        options = _zlg.DeviationOptions(0.6827, 0.9, None, 1)
-        d = made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), 20, True, options))
+        samples = (floats(data), rate, called, "1", mask(valid))
+        d = made_of(Deviations, _zlg.deviation(kind, samples, _taus(taus), 20, True, 0.6827, 0.9, None, 1))
         mirrored = d.as_computed / np.where(d.deviation > 0.0, d.deviation, 1.0)
         return Known(d.tau_s, d.as_computed, 0.5 * (d.high - d.low) * mirrored, d.terms)
 

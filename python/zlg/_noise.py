@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Optional
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _zlg
 from ._columns import floats, made_of, mask, signs
-from ._shown import Shown, axes_of
+from ._shown import Row, Shown, axes_of, short
 from ._deviations import DataType, Floats, Unit
-from ._zlg import NoiseTerms
 
 __all__ = [
     "DiscreteNoise", "FittedTerm", "ModeSplit", "NoiseFit", "NoiseTerms", "RateTable", "data_sheet",
@@ -20,26 +19,43 @@ __all__ = [
     "terms_of_data_sheet", "welch_spectrum",
 ]  # fmt: skip
 
-Estimate = Optional[tuple[float, float]]
-
 
 @dataclass(repr=False)
-class FittedTerm(Shown):
-    """A noise term, found or not; NaN: not known."""
+class NoiseTerms(Shown):
+    """The terms of a gyro's noise, arcsec and seconds; 0: absent."""
 
-    name: str
-    unit: str
-    found: bool
-    value: float
-    #: one standard deviation
-    sigma: float
-    #: of a Markov term the time, s; of a sinusoid the frequency, of angle random walk the bandwidth, -3 dB, Hz
-    second: float
-    second_sigma: float
-    #: where not found: 95 % of such gyros have less
-    limit: float
-    #: tau at which the Allan deviation of the term alone is read
-    read_at_s: float
+    quantisation_arcsec: float = 0.0
+    angle_random_walk_arcsec_sqrt_s: float = 0.0
+    #: of the low pass behind which angle random walk is seen
+    filter_time_s: float = 0.0
+    bias_instability_arcsec_s: float = 0.0
+    rate_random_walk_arcsec_s_sqrt_s: float = 0.0
+    ramp_arcsec_s2: float = 0.0
+    #: (deviation_arcsec_s, time_s)
+    markov: list[tuple[float, float]] = field(default_factory=list)
+    #: (amplitude_arcsec_s, frequency_hz)
+    sines: list[tuple[float, float]] = field(default_factory=list)
+
+    def __repr__(self) -> str:
+        """Those that are there."""
+        return f"NoiseTerms({', '.join(f'{name}={short(value)}' for name, value in vars(self).items() if value)})"
+
+    def allan_variance(self, tau_s: ArrayLike) -> Floats:
+        """Allan variance of the rate at tau_s, (arcsec/s)^2, shape of tau_s."""
+        return _zlg.allan_variance(self, tau_s)
+
+    def rate_spectrum(self, frequency_hz: ArrayLike, rate_hz: float) -> Floats:
+        """Two-sided spectrum of the rate, (arcsec/s)^2/Hz, shape of frequency_hz."""
+        return _zlg.rate_spectrum(self, frequency_hz, rate_hz)
+
+
+class FittedTerm(Row):
+    """A noise term: name, unit, found, value, sigma; NaN: not known.
+
+    second, second_sigma  of a Markov term the time, s; of a sinusoid the frequency, of angle random walk the bandwidth, -3 dB, Hz
+    limit                 where not found: 95 % of such gyros have less
+    read_at_s             tau at which the Allan deviation of the term alone is read
+    """
 
 
 @dataclass(repr=False)
@@ -87,7 +103,7 @@ def fit_noise(
 
     data  shape (samples,). Raises SeriesError: as `deviation`; fewer than 64 intervals.
     """
-    samples = _zlg.Samples(floats(data), rate_hz, data_type, unit, mask(valid))
+    samples = (floats(data), rate_hz, data_type, unit, mask(valid))
     return made_of(NoiseFit, _zlg.fit_noise(samples, markov, most_sines, least_known_ratio, threads))
 
 
@@ -105,24 +121,18 @@ def terms_of_data_sheet(
     ramp_deg_h_h: float = 0.0,
 ) -> NoiseTerms:
     """From a data sheet; bias instability is B, 0.664 B the floor of the Allan deviation."""
-    return _zlg.terms_of_sheet(
+    sheet = (
         quantisation_arcsec, angle_random_walk_deg_sqrt_h, bias_instability_deg_h, rate_random_walk_deg_h_sqrt_h,
         ramp_deg_h_h,
     )  # fmt: skip
+    return made_of(NoiseTerms, _zlg.terms_of_sheet(*sheet))
 
 
-@dataclass(repr=False)
-class DiscreteNoise(Shown):
-    """Noise of one sample at a rate, standard deviations."""
+class DiscreteNoise(Row):
+    """Standard deviations of one sample: white_rate_arcsec_s, white_increment_arcsec, walk_step_arcsec_s, angle_error_arcsec, ramp_step_arcsec_s.
 
-    white_rate_arcsec_s: float
-    white_increment_arcsec: float
-    walk_step_arcsec_s: float
-    angle_error_arcsec: float
-    ramp_step_arcsec_s: float
-    #: of each Markov term: b[k+1] = factor b[k] + step
-    markov_factor: list[float]
-    markov_step_arcsec_s: list[float]
+    markov_factor, markov_step_arcsec_s  lists, of each Markov term: b[k+1] = factor b[k] + step
+    """
 
 
 def discrete_noise(terms: NoiseTerms, rate_hz: float) -> DiscreteNoise:
@@ -145,27 +155,15 @@ def welch_spectrum(
     return _zlg.welch_spectrum(floats(rates_arcsec_s), rate_hz, piece, least_known_ratio)
 
 
-@dataclass(repr=False)
-class ModeSplit(Shown):
-    """A switched gyro's rate, in what follows the mode and what does not. An estimate is (value, sigma), None: not determined."""
+class ModeSplit(Row):
+    """A switched gyro's rate, in what follows the mode and what does not. An estimate is (value, sigma), None: not determined.
 
-    segment_time_s: Floats
-    segment_mode: NDArray[np.int8]
-    segment_rate_arcsec_s: Floats
-    #: of every segment with two neighbours
-    time_s: Floats
-    magnetic_arcsec_s: Floats
-    nonmagnetic_arcsec_s: Floats
-    nonmagnetic: Estimate
-    #: at the start, its growth by warming, and the time of that, s
-    magnetic: Estimate
-    magnetic_thermal: Estimate
-    thermal_time: Estimate
-    switch_time_s: Floats
-    switch_mode_after: NDArray[np.int8]
-    #: at rest the error of the switch, on a moving base that of the motion too
-    switch_error_arcsec: Floats
-    switch_rms_arcsec: float
+    segment_time_s, segment_mode, segment_rate_arcsec_s  of every segment, shape (segments,)
+    time_s, magnetic_arcsec_s, nonmagnetic_arcsec_s      of every segment with two neighbours
+    nonmagnetic, magnetic, magnetic_thermal, thermal_time  estimates; magnetic at the start, its growth by warming, the time of that, s
+    switch_time_s, switch_mode_after, switch_error_arcsec  at rest the error of the switch, on a moving base that of the motion too
+    switch_rms_arcsec
+    """
 
 
 def split_modes(
@@ -183,22 +181,13 @@ def split_modes(
     return made_of(ModeSplit, _zlg.split_modes(floats(rates_arcsec_s), signs(mode), rate_hz, bridged, settling_samples))
 
 
-@dataclass(repr=False)
-class RateTable(Shown):
-    """Scale factor and bias from a rate table. An estimate is (value, sigma), None: not determined."""
+class RateTable(Row):
+    """Scale factor and bias from a rate table. An estimate is (value, sigma), None: not determined.
 
-    #: of each stage, shape (stages,)
-    input_arcsec_s: Floats
-    output: Floats
-    residual_ppm: Floats
-    #: units of the output per arcsec
-    scale_factor: Estimate
-    arcsec_per_unit: Estimate
-    bias_arcsec_s: Estimate
-    asymmetry_ppm: Estimate
-    nonlinearity_ppm: float
-    largest_residual_ppm: float
-    hysteresis_arcsec_s: float
+    input_arcsec_s, output, residual_ppm  of each stage, shape (stages,)
+    scale_factor, arcsec_per_unit, bias_arcsec_s, asymmetry_ppm  estimates; the first in units of the output per arcsec
+    nonlinearity_ppm, largest_residual_ppm, hysteresis_arcsec_s
+    """
 
 
 def rate_table(

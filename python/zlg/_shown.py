@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import importlib
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-__all__ = ["Columns", "Shown", "axes_of"]
+__all__ = ["Columns", "Row", "Shown", "axes_of"]
 
 
 def short(value: Any) -> str:
@@ -26,26 +26,25 @@ def short(value: Any) -> str:
         return f"<{len(value)} of {type(next(iter(value))).__name__}>"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(short(each) for each in value) + "]"
-    if dataclasses.is_dataclass(value):
+    if isinstance(value, Shown):
         return f"<{type(value).__name__}>"
     return repr(value.item() if isinstance(value, np.generic) else value)
 
 
-def members_of(record: Any) -> list[tuple[str, Any]]:
-    """Names and values of a dataclass."""
-    return [(field.name, getattr(record, field.name)) for field in dataclasses.fields(record)]
-
-
 def _is_large(value: Any) -> bool:
-    return dataclasses.is_dataclass(value) or isinstance(value, (list, tuple, dict, str)) and len(value) > 60
+    return isinstance(value, Shown) or isinstance(value, (list, tuple, dict, str)) and len(value) > 60
 
 
 class Shown:
-    """A dataclass whose repr stays short; arrays are told by their length and ends."""
+    """A record whose repr stays short; arrays are told by their length and ends."""
 
     def __repr__(self) -> str:
-        members = [f"{name}={short(value)}" for name, value in members_of(self) if value is not None]
+        members = [f"{name}={short(value)}" for name, value in vars(self).items() if value is not None]
         return f"{type(self).__name__}({', '.join(members)})"
+
+
+class Row(Shown, SimpleNamespace):
+    """A part of a result as C++ gives it; what it holds, by name, its own kind says."""
 
 
 class Columns(Shown):
@@ -56,7 +55,7 @@ class Columns(Shown):
 
     def to_pandas(self) -> Any:
         """The columns as a pandas.DataFrame; those of light samples, which are tables, are left out. Needs pandas."""
-        columns = {name: each for name, each in members_of(self) if isinstance(each, np.ndarray) and each.ndim == 1}
+        columns = {name: each for name, each in vars(self).items() if isinstance(each, np.ndarray) and each.ndim == 1}
         index = columns.pop(self._index, getattr(self, self._index)) if self._index else None
         frame = importlib.import_module("pandas").DataFrame(columns, index=index)
         frame.index.name = self._index or None

@@ -71,19 +71,6 @@ class Motion:
     @property
     def duration_s(self) -> float: ...
 
-class NoiseTerms:
-    def __init__(self) -> None: ...
-    quantisation_arcsec: float
-    angle_random_walk_arcsec_sqrt_s: float
-    filter_time_s: float
-    bias_instability_arcsec_s: float
-    rate_random_walk_arcsec_s_sqrt_s: float
-    ramp_arcsec_s2: float
-    markov: list[tuple[float, float]]
-    sines: list[tuple[float, float]]
-    def allan_variance(self, tau_s: ArrayLike) -> NDArray[np.float64]: ...
-    def rate_spectrum(self, frequency_hz: ArrayLike, rate_hz: float) -> NDArray[np.float64]: ...
-
 class SensorFrame:
     def __init__(self) -> None: ...
     sequence: int
@@ -108,19 +95,12 @@ class SensorFrame:
 class SeriesError(Error, ValueError): ...
 
 class TwinTruth:
-    @property
-    def dtheta_arcsec(self) -> float: ...
-    @property
-    def false_relock_arcsec(self) -> float: ...
-    @property
-    def detuning_end_lambda(self) -> float: ...
-    @property
-    def perimeter_v(self) -> float: ...
-    @property
-    def rounding_arcsec(self) -> float: ...
-    @property
-    def random_walk_arcsec(self) -> float: ...
-    @property
-    def lit(self) -> bool: ...
+    dtheta_arcsec: float
+    false_relock_arcsec: float
+    detuning_end_lambda: float
+    perimeter_v: float
+    rounding_arcsec: float
+    random_walk_arcsec: float
+    lit: bool
 
 def __getattr__(name: str) -> Any: ...

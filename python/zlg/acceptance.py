@@ -4,57 +4,40 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Optional
 
 from . import _zlg
 from ._columns import Progress, made_of
-from ._shown import Shown
+from ._shown import Row
 from .config import Config, checked
 from .logs import Path
 
 __all__ = ["Acceptance", "Quantity", "accept"]
 
 
-@dataclass(repr=False)
-class Quantity(Shown):
-    """What the logs say of one quantity, and the verdict."""
+class Quantity(Row):
+    """What the logs say of one quantity, and the verdict. None: not determined, no limit.
 
-    #: with its unit, "bias.deg_h"
-    name: str
-    #: None: not determined
-    value: Optional[float]
-    #: one standard deviation
-    uncertainty: Optional[float]
-    #: of the uncertainty; None: known
-    degrees_of_freedom: Optional[float]
-    #: "min" and "max", as far as the plan has them; None: no limit
-    limit: Optional[dict[str, float]]
-    #: "pass", "fail", "undecided", "not determined"; None: no limit
-    verdict: Optional[str]
-    #: that the truth lies beyond the limit, of what passes
-    risk: float
-    #: by which the record would be longer when it decides with an even chance; None: no time does, or it is decided
-    more_hours: Optional[float]
-    reason: str
+    name                name with its unit, "bias.deg_h"
+    value, uncertainty  one standard deviation, of degrees_of_freedom, None: known
+    limit               "min" and "max", as far as the plan has them
+    verdict             "pass", "fail", "undecided", "not determined"
+    risk                that the truth lies beyond the limit, of what passes
+    more_hours          by which the record would be longer when it decides with an even chance; None: no time does, or it is decided
+    """
 
 
-@dataclass(repr=False)
-class Acceptance(Shown):
-    """What `accept` gives."""
+class Acceptance(Row):
+    """What `accept` gives, as the program's record has it.
 
-    #: whether every limit is met
-    passed: bool
-    #: serial, type, ... as the plan has them
-    unit: dict[str, Any]
-    risk: float
-    #: that a unit which passes lies beyond one of the limits; None: it does not pass
-    unit_risk: Optional[float]
+    passed     whether every limit is met
+    unit       serial, type, ... as the plan has them
+    risk       of a quantity; unit_risk: that a unit which passes lies beyond one of the limits, None: it does not pass
+    runs       files with their checksums, notes, and why a run is no measurement
+    html       the page, as `zlg accept --out` writes it
+    """
+
     quantities: list[Quantity]
-    #: files with their checksums, notes, and why a run is no measurement
-    runs: list[dict[str, Any]]
-    #: the page, as `zlg accept --out` writes it
-    html: str
 
     def __getitem__(self, name: str) -> Quantity:
         """The quantity of a name, "bias.deg_h". Raises KeyError."""

@@ -4,88 +4,48 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _zlg
-from ._columns import Progress, columns_of, made_of, warn_each
-from ._shown import Shown
+from ._columns import Progress, made_of, warn_each
+from ._shown import Row
 from .config import Config, checked
 from .logs import Path, RawLog
 
 __all__ = ["CalibratedLog", "Calibration", "Constant", "Discriminator", "Goodness", "calibrate"]
 
 
-@dataclass(repr=False)
-class Constant(Shown):
-    """A constant that the logs determine."""
-
-    #: "section.key" of the configuration
-    key: str
-    value: float
-    #: one standard deviation
-    sigma: float
-    #: of both; empty for a pure number
-    unit: str
+class Constant(Row):
+    """A constant that the logs determine: key, "section.key", value, its sigma, and the unit of both, empty for a pure number."""
 
 
-@dataclass(repr=False)
-class Discriminator(Shown):
-    """The inverse discriminator, arrays of shape (points,)."""
-
-    #: wavelengths
-    detuning_lambda: NDArray[np.float64]
-    #: of the discriminator at these detunings
-    signal: NDArray[np.float64]
-    #: one standard deviation of detuning_lambda
-    sigma_lambda: NDArray[np.float64]
+class Discriminator(Row):
+    """The inverse discriminator: detuning_lambda, signal, and sigma_lambda of the detunings, arrays of shape (points,)."""
 
 
-@dataclass(repr=False)
-class Goodness(Shown):
-    """How well a law fits."""
-
-    name: str
-    value: float
-    #: what it is, and what it should be
-    meaning: str
+class Goodness(Row):
+    """How well a law fits: name, value, and a meaning, what it is and what it should be."""
 
 
-@dataclass(repr=False)
-class CalibratedLog(Shown):
-    """What one log brought."""
-
-    path: str
-    duration_s: float
-    segments: int
-    relocks: int
-    #: lowest and highest, degrees Celsius; None: not recorded
-    temperature_c: Optional[tuple[float, float]]
+class CalibratedLog(Row):
+    """What one log brought: path, duration_s, segments, relocks; temperature_c, lowest and highest, None: not recorded."""
 
 
-@dataclass(repr=False)
-class Calibration(Shown):
-    """What `calibrate` gives."""
+class Calibration(Row):
+    """What `calibrate` gives.
+
+    not_determined    why a constant is not among them, by its key; a discriminator that is not is None
+    bias_chi_higher   gyro.bias_chi_higher, with the bias_chi of `constants`; of a parabola none
+    tick_s, scale_arcsec, reference_temperature_c  of the logs; to which the constants refer, degrees Celsius
+    toml              the configuration that `to_toml` gives
+    """
 
     constants: list[Constant]
-    #: why a constant is not among them, by its key
-    not_determined: dict[str, str]
-    #: gyro.bias_chi_higher, with the bias_chi of `constants`; of a parabola none
-    bias_chi_higher: list[float]
-    #: None: not determined
     discriminator: Optional[Discriminator]
     goodness: list[Goodness]
     logs: list[CalibratedLog]
-    #: of the logs
-    tick_s: float
-    scale_arcsec: float
-    #: to which the constants refer, degrees Celsius
-    reference_temperature_c: float
-    #: the configuration that `to_toml` gives
-    toml: str
 
     def __getitem__(self, key: str) -> Constant:
         """The constant of a key, "gyro.bias_hz". Raises KeyError; where it was not determined, it says why."""
@@ -142,7 +102,7 @@ def calibrate(
             if any(log is other for other in each[:place]):
                 raise ValueError(f"logs: log {place} is named twice; each log counts once")
             names.append(f"log {place}")
-            held[names[-1]] = columns_of(log)
+            held[names[-1]] = vars(log)
         else:
             names.append(os.fspath(log))
     found = _zlg.calibrate(names, held, rate_arcsec_s, checked(config), progress)

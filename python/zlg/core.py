@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Optional
 
 from . import _zlg
-from ._columns import Progress, columns_of, made_of, warn_each
+from ._columns import Progress, made_of, warn_each
 from ._zlg import ActuatorFrame, ControlOutput, HalfRecord, SensorFrame
 from .config import Config, checked, resolved
 from .logs import AngleLog, RawLog
@@ -48,6 +48,6 @@ def compensate(raw: RawLog, config: Optional[Config] = None, progress: Progress 
     was recorded with another tick or scale; FormatError for a log without a whole tick; ValueError for columns that do not fit.
     """
     used = raw.config if config is None else config
-    columns = _zlg.compensate(columns_of(raw), checked(used), raw.settings, raw.timer_hz, progress)
+    columns = _zlg.compensate(vars(raw), checked(used), raw.settings, raw.timer_hz, progress)
     warn_each(columns["warnings"])
     return made_of(AngleLog, {**columns, "tick_s": used.gyro.tick_s})

@@ -6,7 +6,6 @@ import json
 import os
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from types import ModuleType
 from typing import Any, Literal, NamedTuple, Optional, Union
 
@@ -15,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _zlg
 from ._columns import Progress, made_of
-from ._shown import Shown
+from ._shown import Row
 from .config import Config, checked, resolved
 
 __all__ = [
@@ -44,95 +43,50 @@ class Optimum(NamedTuple):
     status: str
 
 
-@dataclass(repr=False)
-class IntervalLine(Shown):
-    """The best interval of one budget for one length of run."""
-
-    run_s: float
-    method: str
-    interval_s: float
-    drift_arcsec_s: float
-    status: str
+class IntervalLine(Row):
+    """The best interval of one budget for one length of run: run_s, method, interval_s, drift_arcsec_s, status."""
 
 
-@dataclass(repr=False)
-class SubstitutionLine(Shown):
-    """Error of a gap's angle, arcsec, by order of the polynomial; frequency NaN: the whole configured motion."""
+class SubstitutionLine(Row):
+    """Error of a gap's angle: order of the polynomial, gap_ticks, frequency_hz, NaN: the whole configured motion, noise_gain.
 
-    order: int
-    gap_ticks: int
-    frequency_hz: float
-    worst_arcsec: float
-    rms_arcsec: float
-    noise_gain: float
-    counter_arcsec: float
-    relock_arcsec: float
-    total_arcsec: float
+    In arcsec: worst_arcsec, rms_arcsec, counter_arcsec, relock_arcsec, total_arcsec.
+    """
 
 
-@dataclass(repr=False)
-class Design(Shown):
-    """What `design_gyro` gives."""
+class Design(Row):
+    """What `design_gyro` gives; page, HTML.
 
-    #: rms of a switch: design.switch_error_arcsec where it is given, else of a trial of the gyro on the twin
-    switch_error_arcsec: float
-    #: best interval with that, by length of run, s; what switching.interval_s = "optimal" stands for
-    best_interval_s: dict[float, float]
+    switch_error_arcsec  rms of a switch: design.switch_error_arcsec where it is given, else of a trial of the gyro on the twin
+    best_interval_s      best interval with that, by length of run, s; what switching.interval_s = "optimal" stands for
+    relock_s, stable, phase_margin_deg, gain_margin  of the perimeter loop
+    false_angle_arcsec   total false angle of one re-lock
+    """
+
     intervals: list[IntervalLine]
     substitution: list[SubstitutionLine]
-    #: of the perimeter loop
-    relock_s: float
-    stable: bool
-    phase_margin_deg: float
-    gain_margin: float
-    #: total false angle of one re-lock
-    false_angle_arcsec: float
-    #: HTML
-    page: str
 
 
-@dataclass(repr=False)
-class Choice(Shown):
-    """What `choose` gives: the simplest gyro that meets a requirement, or the one with the least error."""
+class Choice(Row):
+    """What `choose` gives, as the program's JSON has it: the simplest gyro that meets a requirement, or the one with the least error.
 
-    met: bool
-    #: share of the gyros of the proof that meet it, and its standard deviation
-    probability: float
-    probability_sigma: float
-    #: of the proof; of these impossible by the tolerances; without their switches
-    gyros: int
-    refused: int
-    lost: int
-    #: largest error at the end that is allowed; what `confidence` of the gyros keep, None: too many have none
-    required_arcsec: float
-    least_arcsec: Optional[float]
-    confidence: float
-    #: by section and key
-    choice: dict[str, dict[str, Any]]
-    reasons: list[str]
-    budget: dict[str, Any]
-    binding: str
-    would_need: list[dict[str, Any]]
-    #: candidates that were proved, each on gyros of its own
-    proofs: int
-    #: the first gyros of the proof, simulated half by half: how many, how many meet it, rms of their errors
-    simulated: dict[str, float]
-    #: what `zlg run` and `Config.loads` take
-    toml: str
-    #: HTML
-    page: str
-    runner_up: dict[str, Any] = field(default_factory=dict)
+    met, probability, probability_sigma  share of the gyros of the proof that meet it, and its standard deviation
+    gyros, refused, lost  of the proof; of these impossible by the tolerances; without their switches
+    required_arcsec, least_arcsec  largest error at the end that is allowed; what `confidence` of the gyros keep, None: too many have none
+    choice               by section and key; runner_up the next one
+    reasons, budget, binding, would_need
+    proofs               candidates that were proved, each on gyros of its own
+    simulated            the first gyros of the proof, simulated half by half: how many, how many meet it, rms of their errors
+    toml, page           what `zlg run` and `Config.loads` take; HTML
+    """
 
 
-@dataclass(repr=False)
-class Relock(Shown):
-    """The perimeter loop from its closing on."""
+class Relock(Row):
+    """The perimeter loop from its closing on.
 
-    step_s: float
-    #: every step_s, wavelengths, shape (steps,)
-    detuning_lambda: NDArray[np.float64]
-    #: false rotation of each tick, arcsec/s, shape (ticks,)
-    false_drift_arcsec_s: NDArray[np.float64]
+    detuning_lambda       every step_s, wavelengths, shape (steps,)
+    false_drift_arcsec_s  false rotation of each tick, arcsec/s, shape (ticks,)
+    """
 
 
 def design_gyro(config: Optional[Config] = None) -> Design:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from types import TracebackType
 from typing import Optional
 
 import numpy as np
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import made_of
-from ._shown import Columns, Shown
+from ._shown import Columns, Row
 from .logs import AngleLog, Path
 
 __all__ = ["Batch", "Line", "LineSummary", "follow", "line_flags"]
@@ -51,42 +50,19 @@ class Batch(Columns):
         return ends
 
 
-@dataclass(repr=False)
-class LineSummary(Shown):
-    """What came over a line so far, and what was lost."""
+class LineSummary(Row):
+    """What came over a line so far, and what was lost, as counts.
 
-    #: that were given
-    ticks: int
-    #: sum of their dtheta_arcsec
-    angle_arcsec: float
-    bytes: int
-    telemetry_messages: int
-    status_messages: int
-    replies: int
-    #: by their numbers
-    lost_messages: int
-    #: their angle is shared out among them
-    lost_ticks: int
-    #: without a final value
-    final_lost_ticks: int
-    #: of the gyro; its turn meanwhile is in no tick
-    restarts: int
-    #: losses of too many ticks at once: outage_ticks, in which it turned by outage_arcsec, were given by nobody
-    outages: int
-    outage_ticks: int
-    outage_arcsec: float
-    #: of ticks of another length, which were left out
-    other_tick_messages: int
-    #: that fit neither those before them nor those after
-    unfitting_messages: int
-    damaged_frames: int
-    damaged_bytes: int
-    #: of the damaged ones: whole, but of another version of the line
-    foreign_frames: int
-    #: whole frames that no gyro of ours sends
-    refused_messages: int
-    #: that came again or too late
-    repeated_messages: int
+    ticks, angle_arcsec   that were given, and the sum of their dtheta_arcsec
+    bytes, telemetry_messages, status_messages, replies
+    lost_messages         by their numbers; lost_ticks: their angle is shared out among them; final_lost_ticks: without a final value
+    restarts              of the gyro; its turn meanwhile is in no tick
+    outages               losses of too many ticks at once: outage_ticks, in which it turned by outage_arcsec, were given by nobody
+    other_tick_messages   of ticks of another length, which were left out
+    unfitting_messages    that fit neither those before them nor those after
+    damaged_frames, damaged_bytes; foreign_frames: of the damaged ones whole, but of another version of the line
+    refused_messages      whole frames that no gyro of ours sends; repeated_messages: that came again or too late
+    """
 
 
 class Line:
@@ -113,9 +89,7 @@ class Line:
     def __enter__(self) -> Line:
         return self
 
-    def __exit__(
-        self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.stop()
 
     def stop(self) -> None:

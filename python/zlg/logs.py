@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _zlg
-from ._columns import Progress, columns_of, made_of, warn_each
+from ._columns import Progress, made_of, warn_each
 from ._shown import Columns, axes_of
 from .config import Config, checked
 
@@ -167,7 +167,7 @@ def write_raw(
     ValueError for rows that no reader would accept.
     """
     settings = log.settings if config is None else checked(config).settings()
-    _zlg.write_raw(os.fspath(path), columns_of(log), settings, log.timer_hz, force, progress)
+    _zlg.write_raw(os.fspath(path), vars(log), settings, log.timer_hz, force, progress)
 
 
 def read_angles(path: Path, progress: Progress = None) -> AngleLog:
@@ -181,7 +181,7 @@ def read_angles(path: Path, progress: Progress = None) -> AngleLog:
 
 def write_angles(path: Path, log: AngleLog, force: bool = False, progress: Progress = None) -> None:
     """Write an angle log, .csv, .h5 or .hdf5; the truth is kept in HDF5. Raises IoError, FormatError."""
-    _zlg.write_angles(os.fspath(path), columns_of(log), log.tick_s, log.settings, force, progress)
+    _zlg.write_angles(os.fspath(path), vars(log), log.tick_s, log.settings, force, progress)
 
 
 def convert(source: Path, target: Path, force: bool = False, progress: Progress = None) -> None:

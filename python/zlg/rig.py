@@ -15,7 +15,7 @@ from .config import Config, checked, resolved
 from .logs import RawLog
 from .twin import Motion
 
-__all__ = ["ClosedLoop", "Simulation", "calibrated_by_laser", "simulate", "without_switching"]
+__all__ = ["ClosedLoop", "Simulation", "calibrated_by_laser", "simulate"]
 
 
 @dataclass(repr=False)
@@ -76,8 +76,3 @@ def simulate(
 def calibrated_by_laser(config: Config) -> Config:
     """The configuration with bias, chi, discriminator and its curve as they follow from [laser]. Raises ConfigError."""
     return Config._of_checked(_zlg.calibrated_by_laser(checked(config)))
-
-
-def without_switching(config: Config) -> Config:
-    """A configuration whose gyro stays in its first mode."""
-    return Config._of_checked(_zlg.without_switching(checked(config)))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _zlg
 from ._columns import Progress, floats, made_of, signs, warn_each
-from ._shown import Shown, axes_of
+from ._shown import Row, Shown, axes_of
 from .analysis import Deviations, ModeSplit, NoiseFit
 from .config import Config, checked, resolved
 from .logs import AngleLog, Path, RawLog, Switches, kind, read_angles, read_raw
@@ -22,16 +22,13 @@ __all__ = [
     "Analysis",
     "Axis",
     "AxisResult",
-    "Claim",
     "EarthLine",
-    "Paper",
     "Readout",
     "RunResult",
     "Switches",
     "Variant",
     "analyze",
     "axis_of_log",
-    "paper",
     "read",
     "run",
 ]
@@ -151,34 +148,6 @@ def run(
 
 
 @dataclass(repr=False)
-class Claim(Shown):
-    """Something that the paper says, and what became of it."""
-
-    where: str
-    claim: str
-    verdict: str
-    finding: str
-
-
-@dataclass(repr=False)
-class Paper(Shown):
-    """The paper recomputed."""
-
-    claims: list[Claim]
-    #: of all points measured on the twin, against theory
-    chi2_per_dof: float
-    #: every figure and table, HTML
-    page: str
-
-
-def paper(
-    config: Optional[Config] = None, threads: int = 1, switches_per_point: int = 2000, progress: Progress = None
-) -> Paper:
-    """Every figure and table of the paper recomputed, beside print and twin; about a minute. Raises ConfigError, DesignError."""
-    return made_of(Paper, _zlg.paper(checked(config), threads, switches_per_point, progress))
-
-
-@dataclass(repr=False)
 class Axis(Shown):
     """One axis of a gyro as it was read."""
 
@@ -200,58 +169,34 @@ class Axis(Shown):
     notes: list[str] = field(default_factory=list)
 
 
-@dataclass(repr=False)
-class Readout(Shown):
-    """The Allan deviation at a time, between two points of its curve."""
-
-    what: str
-    tau_s: float
-    deviation_arcsec_s: float
+class Readout(Row):
+    """The Allan deviation at a time, between two points of its curve: what, tau_s, deviation_arcsec_s."""
 
 
-@dataclass(repr=False)
-class AxisResult(Shown):
-    """What is known of the noise of one axis."""
+class AxisResult(Row):
+    """What is known of the noise of one axis: name, n_samples, n_known, n_gaps, mean_arcsec_s, mean_sigma_arcsec_s, warnings.
 
-    name: str
-    n_samples: int
-    n_known: int
-    n_gaps: int
-    mean_arcsec_s: float
-    mean_sigma_arcsec_s: float
+    no_fit       why there is no fit
+    readouts     at 1 s, and where each term is read
+    modes        of a switched gyro, as mode_curves: mode +1, mode -1, and both with the magnetic part taken out
+    """
+
     deviations: list[Deviations]
     fit: Optional[NoiseFit]
-    #: why there is no fit
-    no_fit: str
-    #: at 1 s, and where each term is read
     readouts: list[Readout]
-    #: of a switched gyro
     modes: Optional[ModeSplit]
-    #: of a switched gyro: mode +1, mode -1, and both with the magnetic part taken out
     mode_curves: list[Deviations]
-    #: as of the axis
-    warnings: list[str]
 
 
-@dataclass(repr=False)
-class EarthLine(Shown):
-    """The Earth's rate as three axes at right angles see it: the norm of their mean rates."""
-
-    group: str
-    n_axes: int
-    norm_arcsec_s: float
-    sigma_arcsec_s: float
+class EarthLine(Row):
+    """The Earth's rate as three axes at right angles see it, the norm of their mean rates: group, n_axes, norm_arcsec_s, sigma_arcsec_s."""
 
 
-@dataclass(repr=False)
-class Analysis(Shown):
-    """What `analyze` gives."""
+class Analysis(Row):
+    """What `analyze` gives: axes; earth, of each group of three axes; page, HTML."""
 
     axes: list[AxisResult]
-    #: of each group of three axes
     earth: list[EarthLine]
-    #: HTML
-    page: str
 
 
 def axis_of_log(log: AngleLog, name: str = "gyro") -> Axis:
@@ -294,10 +239,10 @@ def analyze(
     progress          called, and Ctrl-C looked for, before each axis
     Raises ConfigError; SeriesError with the axis' name.
     """
-    records = _zlg.Axes()
+    records = []
     for axis in axes:
         mode = None if axis.mode is None else signs(axis.mode)
         bridged = None if axis.bridged_arcsec_s is None else floats(axis.bridged_arcsec_s)
         phase = None if axis.phase_arcsec is None else floats(axis.phase_arcsec)
-        records.add(axis.name, axis.group, axis.rate_hz, floats(axis.rates_arcsec_s), mode, bridged, phase, axis.warnings)
+        records.append((axis.name, axis.group, axis.rate_hz, floats(axis.rates_arcsec_s), mode, bridged, phase, axis.warnings))
     return made_of(Analysis, _zlg.analyze(checked(config), records, settling_samples, threads, progress))

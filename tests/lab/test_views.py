@@ -1,4 +1,4 @@
-"""What the lab page shows and does: controls, faults, turning by hand, links, tour, narrow and dark screens."""
+"""What the lab page shows and does: controls, faults, turning by hand, links, narrow and dark screens."""
 
 import json
 import re
@@ -127,16 +127,6 @@ class Views(LivingPageCase):
         self.browser.wait_until(lambda: self.browser.text("#now dd").startswith("0 "))
         self.browser.press("#restart")
         self.browser.wait_until(lambda: len(self.browser.marked("fingerprint")) == 16)
-
-    def test_the_tour_has_ten_steps_each_with_a_gyro_of_its_own(self):
-        self.browser.press("#tour-start")
-        for step in range(1, 11):
-            self.browser.wait_until(lambda: self.browser.text("#tour .step") == f"Step {step} of 10")
-            self.browser.wait_for_state("running")
-            self.assertEqual(self.browser.marked("message"), "")
-            self.assertIsNotNone(self.browser.value("document.querySelector('.card.shown h2').textContent"))
-            self.browser.press("#tour .main")
-        self.browser.wait_until(lambda: self.browser.value("document.getElementById('tour').hidden"))
 
     def test_nothing_is_wider_than_the_screen_and_every_field_has_a_name(self):
         for width in (390, 760, 1200):

@@ -24,13 +24,6 @@ function configure(text) {
     return loop.zlg_configure();
 }
 
-// The settings of a second gyro beside those that are configured from now on.
-function other(text) {
-    hand_over(text);
-    loop.zlg_other(1);
-    return 1;
-}
-
 function message() {
     const place = loop.zlg_message();
     return new TextDecoder().decode(new Uint8Array(loop.memory.buffer, place, loop.zlg_message_bytes()));
@@ -39,7 +32,6 @@ function message() {
 const answer = (is_done) => (is_done ? loop.zlg_time_s() : message());
 const calls = {
     configure: (settings) => answer(configure(settings)),
-    other: (settings) => answer(other(settings)),
     advance: (halves) => answer(loop.zlg_advance(halves)),
     memory_bytes: () => loop.memory.buffer.byteLength,
 };

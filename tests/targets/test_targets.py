@@ -129,10 +129,6 @@ class WebAssembly(Target, unittest.TestCase):
     def test_a_page_without_a_gyro_is_told_so(self):
         self.assertEqual(self.calls(["advance", 1]), ["no gyro is configured"])
 
-    def test_a_second_gyro_is_refused_as_that(self):
-        self.assertEqual(self.calls(["other", "switching.interval_s=-1"], ["configure", ""])[1].split(": ")[:2], ["the second gyro", "--set"])
-        self.assertEqual(self.calls(["other", "switching.interval_s=20"], ["configure", ""], ["advance", 10]), [0, 0, 0.025])
-
     def test_many_refusals_cost_no_memory(self):
         refused = [["configure", "run.duraton_s=1"]]
         found = self.calls(*refused * 100, ["memory_bytes"], *refused * 5000, ["memory_bytes"])
