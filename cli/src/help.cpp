@@ -105,7 +105,6 @@ constexpr std::array kinds{
     Kind{"--run-lengths", "SECONDS,..."},
     Kind{"--to", "DEVICE|ADDRESS"},
     Kind{"--require", "FILE.toml"},
-    Kind{"--rules", "paper"},
     Kind{"--baud", "NUMBER"},
     Kind{"--port", "NUMBER"},
     Kind{"--mapping", "FILE.toml"},

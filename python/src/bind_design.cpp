@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include <zlg/choice/choice_page.hpp>
-#include <zlg/choice/paper_rules.hpp>
 #include <zlg/config/config.hpp>
 #include <zlg/design/drift_budget.hpp>
 #include <zlg/design/error.hpp>
@@ -110,7 +109,7 @@ py::dict design_of(const config::Config& config) {
 
 // The answer as JSON, the configuration that it chooses, the page.
 py::tuple choose_of(const std::string& text, const std::string& source_name, const std::vector<std::string>& sets,
-                    bool is_by_paper, int threads, const py::object& progress) {
+                    int threads, const py::object& progress) {
     if (!(threads >= 1)) throw std::invalid_argument{"threads: allowed is 1 and more"};
     const choice::Requirement requirement = choice::parse_requirement(text, source_name, sets);
     Interruption interruption;
@@ -120,13 +119,10 @@ py::tuple choose_of(const std::string& text, const std::string& source_name, con
         const py::gil_scoped_acquire interpreter;
         if (!progress.is_none()) progress(fraction);
     };
-    const choice::Answer answer =
-        without_interpreter([&] { return is_by_paper ? choice::by_paper_rules(requirement) : choice::choose(task); });
+    const choice::Answer answer = without_interpreter([&] { return choice::choose(task); });
     interruption.raise();
-    const report::Page page =
-        is_by_paper ? choice::paper_rules_page(requirement, answer) : choice::choice_page(requirement, answer);
     return py::make_tuple(choice::json_text(requirement, answer), choice::toml_text(requirement, answer),
-                          report::html(page));
+                          report::html(choice::choice_page(requirement, answer)));
 }
 
 }  // namespace
@@ -137,7 +133,7 @@ void bind_design(py::module_& m) {
     m.def("substitution_response", &response, "order"_a, "gap_ticks"_a, "points"_a, "extrapolate"_a, "tick_s"_a,
           "frequency_hz"_a);
     m.def("relock", &relock, "config"_a, "miss_lambda"_a, "ticks"_a);
-    m.def("choose", &choose_of, "text"_a, "source_name"_a, "sets"_a, "is_by_paper"_a, "threads"_a, "progress"_a);
+    m.def("choose", &choose_of, "text"_a, "source_name"_a, "sets"_a, "threads"_a, "progress"_a);
     m.def("design_gyro", &design_of, "config"_a);
 }
 

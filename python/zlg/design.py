@@ -33,7 +33,7 @@ __all__ = [
     "substitution_response",
 ]
 
-Method = Literal["corrected", "worst_case", "as_printed", "closed_form", "random_sign"]
+Method = Literal["corrected", "worst_case", "as_printed"]
 
 
 class Optimum(NamedTuple):
@@ -144,7 +144,6 @@ def choose(
     require: Union[str, os.PathLike[str]],
     *,
     settings: Sequence[str] = (),
-    rules: Literal["all", "paper"] = "all",
     threads: int = 1,
     progress: Progress = None,
 ) -> Choice:
@@ -152,17 +151,14 @@ def choose(
 
     require  a path of a TOML file, or the TOML itself: a text of more than one line.
     settings  "section.key=value", over it.
-    rules    "paper": by the paper's rules alone, without a gyro tried.
     Ctrl-C ends it. Raises ConfigError, DesignError, IoError, FormatError.
     """
-    if rules not in ("all", "paper"):
-        raise ValueError(f"rules = {rules!r}: allowed are 'all' and 'paper'")
     text, source = os.fspath(require), "require"
     if "\n" not in text:
         source = text
         with open(text, encoding="utf-8") as file:
             text = file.read()
-    found, toml, page = _zlg.choose(text, source, list(settings), rules == "paper", threads, progress)
+    found, toml, page = _zlg.choose(text, source, list(settings), threads, progress)
     return made_of(Choice, {**json.loads(found), "toml": toml, "page": page})
 
 

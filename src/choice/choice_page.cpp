@@ -49,43 +49,6 @@ Figure interval_figure(const Requirement& r, const Answer& a) {
     return f;
 }
 
-Figure probability_figure(const Requirement& r, const Answer& a) {
-    Figure f = blank_figure("probability", "Share of the gyros against what is required",
-                            "The gyros of the proof that keep so small an error. Thin: one standard deviation. "
-                            "Shaded: up to what is required.",
-                            "error of the angle at the end, arcsec", "share of the gyros");
-    std::vector<double> errors;
-    for (const Trial& t : a.proof.trials)
-        if (t.state == TrialState::good) errors.push_back(std::abs(t.error_arcsec));
-    std::ranges::sort(errors);
-    Series share = blank_series("share");
-    Series low = blank_series("", Mark::line, true, 0);
-    Series high = blank_series("one standard deviation", Mark::line, true, 0);
-    const auto n = static_cast<std::int64_t>(a.proof.trials.size());
-    for (std::size_t k = 0; k < errors.size(); ++k) {
-        const auto held = static_cast<std::int64_t>(k + 1);
-        const double value = static_cast<double>(held) / static_cast<double>(n);
-        const double sigma = sigma_of_share(held, n);
-        add_point(share, errors[k], value);
-        add_point(low, errors[k], value - sigma);
-        add_point(high, errors[k], value + sigma);
-    }
-    for (const Series* s : {&share, &low, &high}) f.series.push_back(thin(*s, 400));
-    f.bands = {{0.0, r.limit_arcsec(), "required"}};
-    return f;
-}
-
-Figure budget_figure(const Answer& a) {
-    Figure f = blank_figure("budget-bars", "What the error at the end is made of",
-                            "Root mean square over the gyros of each part, and of all together.", "part", "arcsec rms");
-    for (std::size_t k = 0; k < a.parts.size(); ++k) {
-        Series bar = blank_series(a.parts[k].name, Mark::bars);
-        add_point(bar, static_cast<double>(k + 1), a.parts[k].rms_arcsec);
-        f.series.push_back(std::move(bar));
-    }
-    return f;
-}
-
 report::Table choice_table(const Requirement& r, const Answer& a) {
     report::Table t{.caption = "What is chosen.", .header = {"key", "value"}};
     for (const auto& [key, value] : chosen_keys(r.base, a.proof.candidate)) t.rows.push_back(row(key, value));
@@ -159,13 +122,10 @@ report::Page choice_page(const Requirement& r, const Answer& a) {
     for (const Need& need : a.would_need) needs.push_back(need.sentence);
     if (!needs.empty())
         page.sections.push_back({.heading = "What would have to change", .paragraphs = std::move(needs)});
-    page.sections.push_back({.heading = "Proof",
-                             .paragraphs = {model_sentence(r)},
-                             .figures = {interval_figure(r, a), probability_figure(r, a)}});
-    page.sections.push_back({.heading = "Budget",
-                             .paragraphs = {"What binds: " + a.binding + "."},
-                             .tables = {budget_table(a)},
-                             .figures = {budget_figure(a)}});
+    page.sections.push_back(
+        {.heading = "Proof", .paragraphs = {model_sentence(r)}, .figures = {interval_figure(r, a)}});
+    page.sections.push_back(
+        {.heading = "Budget", .paragraphs = {"What binds: " + a.binding + "."}, .tables = {budget_table(a)}});
     page.sections.push_back({.heading = "Configuration",
                              .paragraphs = {"Saved as chosen.toml, these lines are what zlg run chosen.toml takes."},
                              .code = toml_text(r, a)});

@@ -12,7 +12,7 @@ constexpr std::string_view motion_is_learnt = "leave it out: the motion is learn
 constexpr std::string_view value_is_fixed = "leave it out: its default is what is done";
 constexpr std::string_view layout_is_mapped = "take --map with the same key";
 
-constexpr std::array<FormerKey, 43> formers{{
+constexpr std::array<FormerKey, 44> formers{{
     {"gyro", "coil_current", "", 3, "leave it out: the current is monitored, and not recorded"},
     {"switching", "after_step", "", 3, "leave it out: a switch waits for its time"},
     {"switching", "schedule", "growing", 3, "take switching.schedule = \"measured\""},
@@ -25,6 +25,7 @@ constexpr std::array<FormerKey, 43> formers{{
     {"gyro", "counter_max_hz", "", 3, "leave it out: the counter follows the bias and 400 deg/s"},
     {"laser", "scatter_phase_deg", "", 3, value_is_fixed},
     {"laser", "comparator_threshold", "", 3, value_is_fixed},
+    {"laser", "dispersion", "", 3, value_is_fixed},
     {"perimeter", "sample_gain", "", 3, value_is_fixed},
     {"perimeter", "settled_tau_s", "", 3, value_is_fixed},
     {"perimeter", "set_points", "", 3, value_is_fixed},

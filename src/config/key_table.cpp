@@ -17,7 +17,6 @@ constexpr std::array<std::string_view, 3> loops{"analog", "exponential", "digita
 constexpr std::array<std::string_view, 4> dithers{"none", "auto", "paired", "random"};
 constexpr std::array<std::string_view, 3> fidelities{"averaged", "laser", "events"};
 constexpr std::array<std::string_view, 2> quadratures{"x1", "x4"};
-constexpr std::array<std::string_view, 2> dispersions{"unsaturated", "saturated"};
 constexpr std::array<std::string_view, 2> readouts{"count", "phase"};
 constexpr std::array<std::string_view, 2> first_segments{"full", "half"};
 constexpr std::array<std::string_view, 2> schedules{"fixed", "measured"};
@@ -119,9 +118,6 @@ const Key table[] = {
     {"laser", "opposite_sigma_coupling", "",
      "cross-saturation of waves on opposite components over that on the same one",
      Real{at<&C::laser, &Laser::opposite_sigma_coupling>, {.min = 0.0, .max = 1.0}}},
-    {"laser", "dispersion", "",
-     "frequencies pulled by the gas without light, the paper's parabola, or with the holes that the waves burn",
-     choice<&C::laser, &Laser::dispersion>(dispersions)},
     {"laser", "bias_field_g", "G", "plateau of the bias field at gyro.reference_temperature_c",
      Real{at<&C::laser, &Laser::bias_field_g>, {.min = 1e-6, .max = 1e4}}},
     {"laser", "beam_power_w", "W",

@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,11 +11,6 @@ namespace zlg::design {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-
-// In the order of the enumerators.
-constexpr std::array<std::string_view, 3> sentences{"the equation has a root within the run",
-                                                    "the equation has no positive root",
-                                                    "the root of the equation is longer than the run"};
 
 // Positive roots of p L^3 - q L^2 + 1 = 0, p, q >= 0.
 //
@@ -47,8 +41,6 @@ double random_sign_interval_s(const DriftCase& task, FirstSegment first) {
     const double ratio_s = task.switch_error_arcsec / (0.5 * (start_arcsec_s + end_arcsec_s));
     return std::cbrt(ratio_s * ratio_s * task.run_s / 2.0);
 }
-
-std::string_view sentence(RootStatus status) { return sentences.at(static_cast<std::size_t>(status)); }
 
 Roots corrected_roots(const DriftCase& task) {
     check(task);

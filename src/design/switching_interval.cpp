@@ -7,7 +7,6 @@
 #include <boost/math/policies/policy.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <zlg/design/error.hpp>
-#include <zlg/design/interval_formula.hpp>
 #include <zlg/design/switching_interval.hpp>
 
 #include "range_check.hpp"
@@ -64,8 +63,7 @@ double min_point(const Value& value, const Slope& slope, double low, double high
 constexpr std::string_view where = "switching interval";
 
 // In the order of the enumerators.
-constexpr std::array<std::string_view, interval_methods.size()> names{"corrected", "worst_case", "as_printed",
-                                                                      "closed_form", "random_sign"};
+constexpr std::array<std::string_view, interval_methods.size()> names{"corrected", "worst_case", "as_printed"};
 constexpr std::array<std::string_view, 3> sentences{
     "the drift is least at an interval shorter than the run",
     "the drift is least without a switch: in this run none pays for itself",
@@ -107,31 +105,16 @@ double start_slope_arcsec_s(const GyroDrift& gyro, double interval_s, FirstSegme
     return -gyro.magnetic_thermal_arcsec_s / 2.0 * std::tanh(half_ratio) / std::cosh(half_ratio);
 }
 
-// Of what the sawtooth leaves at the worst end.
-double slope_worst_end(const DriftCase& task, double interval_s, FirstSegment first) {
-    const double start_arcsec = start_residue_arcsec(task.gyro, interval_s, first);
+double slope_worst_case(const DriftCase& task, double interval_s) {
+    const double start_arcsec = kernel_arcsec(task.gyro, interval_s, 0.0);
     const double end_arcsec = kernel_arcsec(task.gyro, interval_s, task.run_s);
     const double magnetic_arcsec_s =
-        std::copysign(1.0, start_arcsec) * start_slope_arcsec_s(task.gyro, interval_s, first) +
+        std::copysign(1.0, start_arcsec) * kernel_slope_arcsec_s(task.gyro, interval_s, 0.0) +
         std::copysign(1.0, end_arcsec) * kernel_slope_arcsec_s(task.gyro, interval_s, task.run_s);
-    return interval_s * magnetic_arcsec_s / task.run_s;
+    return interval_s * magnetic_arcsec_s / task.run_s - task.switch_error_arcsec / interval_s;
 }
 
-double slope_worst_case(const DriftCase& task, double interval_s, FirstSegment first) {
-    return slope_worst_end(task, interval_s, first) - task.switch_error_arcsec / interval_s;
-}
-
-// Of sqrt(M^2 + N^2): (M L M' + N L N')/sqrt(M^2 + N^2), with N as L^(-1/2). The case has no nonmagnetic drift.
-double slope_random_sign(const DriftCase& task, double interval_s, FirstSegment first) {
-    const double noise_arcsec_s = independent_switch_drift_arcsec_s(task, interval_s);
-    const double total_arcsec_s = random_sign_drift_arcsec_s(task, interval_s, first);
-    const double magnetic_arcsec_s =
-        worst_case_drift_arcsec_s(task, interval_s, first) - task.switch_error_arcsec / interval_s;
-    return (magnetic_arcsec_s * slope_worst_end(task, interval_s, first) - 0.5 * noise_arcsec_s * noise_arcsec_s) /
-           total_arcsec_s;
-}
-
-// The same of a run that ends anywhere in a segment: (L (S S' + K K'/3)/t^2 + N L N')/sqrt(S^2/t^2 + K^2/(3 t^2) +
+// Of a run that ends anywhere in a segment: (L (S S' + K K'/3)/t^2 + N L N')/sqrt(S^2/t^2 + K^2/(3 t^2) +
 // N^2).
 double slope_expected(const DriftCase& task, double interval_s, FirstSegment first) {
     const double noise_arcsec_s = independent_switch_drift_arcsec_s(task, interval_s);
@@ -141,11 +124,6 @@ double slope_expected(const DriftCase& task, double interval_s, FirstSegment fir
                             end_arcsec * kernel_slope_arcsec_s(task.gyro, interval_s, task.run_s) / 3.0;
     return (interval_s * magnetic / (task.run_s * task.run_s) - 0.5 * noise_arcsec_s * noise_arcsec_s) /
            expected_drift_arcsec_s(task, interval_s, first);
-}
-
-// A budget or a slope for one first segment, as a function of case and interval.
-auto with(double (*of)(const DriftCase&, double, FirstSegment), FirstSegment first) {
-    return [of, first](const DriftCase& task, double interval_s) { return of(task, interval_s, first); };
 }
 
 DriftCase without_nonmagnetic(DriftCase task) {
@@ -189,19 +167,6 @@ Optimum searched(const DriftCase& task, const Drift& drift, const Slope& slope, 
     return {status_of(interval_s, task.run_s, has_magnetic_drift(task.gyro)), interval_s, drift(task, interval_s)};
 }
 
-// Minimum of a budget that has a formula for it and ignores the warm-up.
-Optimum limited_to_run(IntervalMethod method, const DriftCase& task, double formula_s) {
-    const double interval_s = std::min(formula_s, task.run_s);
-    return {status_of(interval_s, task.run_s, task.gyro.magnetic_arcsec_s != 0.0), interval_s,
-            drift_arcsec_s(method, task, interval_s)};
-}
-
-double closed_form_drift_arcsec_s(const DriftCase& task, double interval_s) {
-    DriftCase cold = task;
-    cold.gyro.magnetic_thermal_arcsec_s = 0.0;
-    return corrected_terms(cold, interval_s).total_arcsec_s();
-}
-
 }  // namespace
 
 std::string_view name(IntervalMethod method) { return names.at(static_cast<std::size_t>(method)); }
@@ -216,25 +181,15 @@ double drift_arcsec_s(IntervalMethod method, const DriftCase& task, double inter
             return worst_case_drift_arcsec_s(task, interval_s);
         case IntervalMethod::as_printed:
             return terms_as_printed(task, interval_s).total_arcsec_s();
-        case IntervalMethod::closed_form:
-            return closed_form_drift_arcsec_s(task, interval_s);
-        case IntervalMethod::random_sign:
-            return random_sign_drift_arcsec_s(task, interval_s);
     }
     refuse(method);
 }
 
-Optimum worst_case_optimum(const DriftCase& task, FirstSegment first) {
-    return searched(task, with(worst_case_drift_arcsec_s, first), with(slope_worst_case, first), min_of_one_sign_s);
-}
-
-Optimum random_sign_optimum(const DriftCase& task, FirstSegment first) {
-    return searched(task, with(random_sign_drift_arcsec_s, first), with(slope_random_sign, first),
-                    min_of_random_sign_s);
-}
-
 Optimum expected_optimum(const DriftCase& task, FirstSegment first) {
-    return searched(task, with(expected_drift_arcsec_s, first), with(slope_expected, first), min_of_random_sign_s);
+    const auto at = [first](double (*of)(const DriftCase&, double, FirstSegment)) {
+        return [of, first](const DriftCase& t, double interval_s) { return of(t, interval_s, first); };
+    };
+    return searched(task, at(expected_drift_arcsec_s), at(slope_expected), min_of_random_sign_s);
 }
 
 Optimum optimum(IntervalMethod method, const DriftCase& task) {
@@ -247,22 +202,9 @@ Optimum optimum(IntervalMethod method, const DriftCase& task) {
         case IntervalMethod::as_printed:
             return searched(task, drift, slope_as_printed, min_of_one_sign_s);
         case IntervalMethod::worst_case:
-            return worst_case_optimum(task, FirstSegment::full);
-        case IntervalMethod::closed_form:
-            return limited_to_run(method, task, closed_form_interval_s(task));
-        case IntervalMethod::random_sign:
-            return random_sign_optimum(task, FirstSegment::full);
+            return searched(task, drift, slope_worst_case, min_of_one_sign_s);
     }
     refuse(method);
-}
-
-Sensitivity sensitivity(IntervalMethod method, const DriftCase& task) {
-    const Optimum best = optimum(method, task);
-    const auto rise = [&](double interval_s) { return drift_arcsec_s(method, task, interval_s) - best.drift_arcsec_s; };
-    Sensitivity result{.shorter_arcsec_s = rise(0.7 * best.interval_s), .longer_arcsec_s = std::nullopt};
-    const double longer_s = 1.3 * best.interval_s;
-    if (longer_s <= task.run_s) result.longer_arcsec_s = rise(longer_s);
-    return result;
 }
 
 }  // namespace zlg::design

@@ -111,16 +111,7 @@ std::string band_names(const Layout& layout) {
 std::string swatch(const Series& series, const LegendEntry& entry) {
     const double middle = entry.line.y - 5.5;
     const double x = entry.line.x;
-    switch (series.mark) {
-        case Mark::points:
-            return marker(look_of(series, entry.series), x + 0.5 * swatch_width, middle, 4.2);
-        case Mark::bars:
-            return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"12\" fill-opacity=\"0.55\"/>\n",
-                               coordinate(x), coordinate(middle - 6.0), coordinate(swatch_width));
-        case Mark::line:
-        case Mark::steps:
-            break;
-    }
+    if (series.mark == Mark::points) return marker(look_of(series, entry.series), x + 0.5 * swatch_width, middle, 4.2);
     return fmt::format("<path d=\"M{},{}h{}\" stroke-width=\"2.4\"{}/>\n", coordinate(x), coordinate(middle),
                        coordinate(swatch_width), dash_of(series, entry.series));
 }

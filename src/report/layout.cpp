@@ -24,20 +24,11 @@ bool drawable(const Figure& figure, const Series& series, std::size_t i) {
     return std::isfinite(on_axis(series.x[i], figure.log_x)) && std::isfinite(on_axis(series.y[i], figure.log_y));
 }
 
-bool has_bars(const Figure& figure) {
-    return std::any_of(figure.series.begin(), figure.series.end(),
-                       [&](const Series& s) { return s.mark == Mark::bars && has_data(figure, s); });
-}
-
 // Points without a y count: a stretch without data is part of what the figure shows.
 Extent x_extent(const Figure& figure) {
     Extent extent;
     for (const Series& s : figure.series) {
-        const double half = s.mark == Mark::bars ? bar_half_width(s, figure.log_x) : 0.0;
-        for (std::size_t i = 0; i < n_points(s); ++i) {
-            extent.add(on_axis(s.x[i], figure.log_x) - half);
-            extent.add(on_axis(s.x[i], figure.log_x) + half);
-        }
+        for (std::size_t i = 0; i < n_points(s); ++i) extent.add(on_axis(s.x[i], figure.log_x));
     }
     if (extent.empty()) {
         for (const Band& band : figure.bands) {
@@ -67,7 +58,6 @@ Extent y_extent(const Figure& figure) {
             add_error(extent, s.y[i], up, down, figure.log_y);
         }
     }
-    if (has_bars(figure) && !figure.log_y) extent.add(0.0);
     return extent;
 }
 
@@ -77,13 +67,9 @@ double widest_label(const Ticks& ticks) {
     return width;
 }
 
-std::string with_offset(const std::string& label, const Ticks& ticks) {
-    return ticks.offset.empty() ? label : label + " (less " + ticks.offset + ")";
-}
-
 void place_x_axis(const Figure& figure, Layout& layout, double right) {
     layout.right = right;
-    layout.x = {figure.log_x, limits(x_extent(figure), figure.log_x, false), layout.left, right};
+    layout.x = {figure.log_x, limits(x_extent(figure), figure.log_x), layout.left, right};
     layout.x_ticks = ticks_of(layout.x, Side::bottom);
     if (layout.x_ticks.major.empty()) return;
     // The last label, centred on its tick, must not leave the page: then the axis ends a little earlier.
@@ -121,36 +107,20 @@ bool has_data(const Figure& figure, const Series& series) {
     return false;
 }
 
-double bar_half_width(const Series& series, bool log_x) {
-    std::vector<double> places;
-    for (const double x : series.x) {
-        if (std::isfinite(on_axis(x, log_x))) places.push_back(on_axis(x, log_x));
-    }
-    std::sort(places.begin(), places.end());
-    double gap = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < places.size(); ++i) {
-        if (places[i] > places[i - 1]) gap = std::min(gap, places[i] - places[i - 1]);
-    }
-    if (std::isfinite(gap)) return 0.5 * gap;
-    const double alone = places.empty() || log_x ? 0.0 : std::fabs(places.front());
-    return alone > 0.0 ? 0.05 * alone : 0.1;
-}
-
 Layout layout_of(const Figure& figure) {
     Layout out;
     const bool named_bands =
         std::any_of(figure.bands.begin(), figure.bands.end(), [](const Band& b) { return !b.name.empty(); });
     out.top = named_bands ? 66.0 : 38.0;
     out.bottom = out.top + plot_height;
-    const bool bars = has_bars(figure);
-    out.y = {figure.log_y, limits(y_extent(figure), figure.log_y, bars), out.bottom, out.top};
+    out.y = {figure.log_y, limits(y_extent(figure), figure.log_y), out.bottom, out.top};
     out.y_ticks = ticks_of(out.y, Side::left);
     out.left = std::max(44.0, widest_label(out.y_ticks) + 18.0);
     place_x_axis(figure, out, figure_width - 18.0);
     const double room = figure_width - 2.0 * edge;
-    out.y_label = fitted(edge, 20.0, label_font_size, room, with_offset(figure.y_label, out.y_ticks));
-    out.x_label = fitted(0.5 * (out.left + out.right), out.bottom + 48.0, label_font_size, out.right - out.left,
-                         with_offset(figure.x_label, out.x_ticks));
+    out.y_label = fitted(edge, 20.0, label_font_size, room, figure.y_label);
+    out.x_label =
+        fitted(0.5 * (out.left + out.right), out.bottom + 48.0, label_font_size, out.right - out.left, figure.x_label);
     out.height = place_legend(figure, out, out.bottom + (figure.x_label.empty() ? 26.0 : 54.0)) + 12.0;
     if (named_bands) {
         out.band_names = place_band_names(figure.bands, out.x, out.left, figure_width - edge, out.top - 16.0);

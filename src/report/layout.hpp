@@ -59,9 +59,6 @@ struct Layout {
 // Is there a point of the series that the figure can show?
 [[nodiscard]] bool has_data(const Figure& figure, const Series& series);
 
-// Half the width of the bars of a series, in axis units: bars touch where they are nearest to each other.
-[[nodiscard]] double bar_half_width(const Series& series, bool log_x);
-
 // Does any of the band lie on the axis? Infinite ends reach over all of it.
 [[nodiscard]] bool band_visible(const Band& band, const Scale& x);
 

@@ -69,23 +69,6 @@ std::string points(const Series& series, std::size_t index, const Layout& layout
     return out;
 }
 
-std::string bars(const Series& series, const Layout& layout) {
-    const double half = bar_half_width(series, layout.x.log);
-    const double base = layout.y.log ? layout.bottom : layout.y.at(0.0);
-    std::string out;
-    for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
-        if (!layout.x.shows(series.x[i]) || !layout.y.shows(series.y[i])) continue;
-        const double centre = on_axis(series.x[i], layout.x.log);
-        const double left = layout.x.at_axis(centre - half);
-        const double width = std::max(layout.x.at_axis(centre + half) - left, 0.5);
-        const double end = layout.y.at(series.y[i]);
-        out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill-opacity=\"0.55\"/>\n",
-                           coordinate(left), coordinate(std::min(base, end)), coordinate(width),
-                           coordinate(std::fabs(base - end)));
-    }
-    return out;
-}
-
 std::string error_bars(const Series& series, const Layout& layout) {
     const std::size_t n = std::min({series.x.size(), series.y.size(), series.y_error.size()});
     const double cap = n > 60 ? 0.0 : 4.0;
@@ -136,18 +119,7 @@ std::string marker(std::size_t series, double x, double y, double radius) {
 
 std::string marks_of(const Series& series, std::size_t index, const Layout& layout) {
     std::string marks = error_bars(series, layout);
-    switch (series.mark) {
-        case Mark::points:
-            marks += points(series, index, layout);
-            break;
-        case Mark::bars:
-            marks += bars(series, layout);
-            break;
-        case Mark::line:
-        case Mark::steps:
-            marks += lines(series, index, layout);
-            break;
-    }
+    marks += series.mark == Mark::points ? points(series, index, layout) : lines(series, index, layout);
     if (marks.empty()) return "";
     return fmt::format("<g class=\"series\" stroke=\"{0}\" fill=\"{0}\">\n{1}</g>\n", colour_of(look_of(series, index)),
                        marks);

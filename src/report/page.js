@@ -1,4 +1,4 @@
-// Values, zoom, series on and off, values as CSV. What is drawn is the data: places are read from the SVG, axes from data-figure.
+// Values, zoom, series on and off. What is drawn is the data: places are read from the SVG, axes from data-figure.
 (() => {
 const { abs, floor, log10, max, min } = Math;
 const all = (e, what) => [...e.querySelectorAll(what)], path = e => e.getAttribute("d");
@@ -49,21 +49,17 @@ const axis = ([lo, hi, log, label], from, to) => {
   return a;
 };
 
-// The bar of a histogram has no path.
 const markerPlace = e => e.tagName == "circle" ? [number(e, "cx"), number(e, "cy")]
-  : /[a-y]/.test(path(e) || "") && path(e).match(/[\d.]+/g);
+  : /[a-y]/.test(path(e)) && path(e).match(/[\d.]+/g);
 
 // The points of a series, with the places of the ends of their error bars.
-const pointsOf = (group, zero) => {
+const pointsOf = group => {
   const bars = {}, out = [], add = (x, y) => out.push({ x: +x, y: +y, bar: bars[+x] });
   for (const e of group.children) {
     const d = path(e), place = markerPlace(e);
     let x;
     if (place) add(...place);
-    else if (e.tagName == "rect") {
-      const y = number(e, "y"), end = y + number(e, "height");
-      add(number(e, "x") + number(e, "width") / 2, end > zero + 0.1 ? end : y);
-    } else if (e.matches(".error")) for (const [, at, ...ends] of d.matchAll(/M([\d.]+),([\d.]+)V([\d.]+)/g)) bars[+at] = ends;
+    else if (e.matches(".error")) for (const [, at, ...ends] of d.matchAll(/M([\d.]+),([\d.]+)V([\d.]+)/g)) bars[+at] = ends;
     else
       for (const [, c, list] of d.matchAll(/([MHV])([^MHV]*)/g))
         if (c == "H") x = list;
@@ -78,8 +74,8 @@ all(document, "figure[data-figure]").forEach(figure => {
   const groups = all(svg, ".series"), plot = find(".plot"), [left, top] = [number(plot, "x"), number(plot, "y")];
   if (!groups.length) return;
   const right = left + number(plot, "width"), bottom = top + number(plot, "height");
-  const X = axis(about.x, left, right), Y = axis(about.y, bottom, top), zero = about.y[2] ? bottom : Y.at(0);
-  const series = about.series.filter(s => s.drawn).map((s, i) => ({ ...s, group: groups[i], points: pointsOf(groups[i], zero) }));
+  const X = axis(about.x, left, right), Y = axis(about.y, bottom, top);
+  const series = about.series.filter(s => s.drawn).map((s, i) => ({ ...s, group: groups[i], points: pointsOf(groups[i]) }));
   const readout = set(written("output", "", figure), { class: "readout" });
   const ring = set(drawn("circle", "point", svg), { r: 7 }), stretch = drawn("rect", "stretch", svg);
   groups[0].parentNode.prepend(...all(svg, ".band"));
@@ -195,14 +191,6 @@ all(document, "figure[data-figure]").forEach(figure => {
   figure.classList.add("live");
 });
 
-all(document, "details.values").forEach(details => {
-  const button = written("button", "copy as CSV", details), quoted = e => `"${e.textContent.replace(/"/g, '""').replace(/−/g, "-")}"`;
-  button.onclick = async () => {
-    const csv = all(details, "tr").map(row => [...row.children].map(quoted).join() + "\n").join("");
-    try { await navigator.clipboard.writeText(csv); button.textContent = "copied"; }
-    catch { written("pre", csv, details); }
-  };
-});
 const fit = () => all(document, ".scroll").forEach(e => e.classList.toggle("fits", e.scrollWidth <= e.clientWidth));
 window.onresize = fit;
 fit();

@@ -27,7 +27,7 @@ double on_axis(double value, bool log) {
     return value > 0.0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
 }
 
-Extent limits(Extent data, bool log, bool stands_on_zero) {
+Extent limits(Extent data, bool log) {
     if (data.empty()) return {0.0, 1.0};
     const double bound = log ? std::log10(largest) : largest;
     const double lo = std::clamp(data.lo, -bound, bound);
@@ -36,7 +36,7 @@ Extent limits(Extent data, bool log, bool stands_on_zero) {
     const double too_small = log ? 1e-9 : std::max(1e-12 * size, smallest);
     if (!(hi - lo > too_small)) return log ? Extent{lo - 0.5, hi + 0.5} : widened_linear(0.5 * lo + 0.5 * hi);
     const double air = 0.04 * (hi - lo);
-    return {stands_on_zero && lo == 0.0 ? lo : lo - air, stands_on_zero && hi == 0.0 ? hi : hi + air};
+    return {lo - air, hi + air};
 }
 
 double Scale::at_axis(double axis_value) const {

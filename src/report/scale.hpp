@@ -19,8 +19,7 @@ struct Extent {
 [[nodiscard]] double on_axis(double value, bool log);
 
 // The limits of an axis that shows `data` (in axis units) with some air around it; never empty.
-// A bar stands on zero, so with `stands_on_zero` the limit at zero gets no air.
-[[nodiscard]] Extent limits(Extent data, bool log, bool stands_on_zero);
+[[nodiscard]] Extent limits(Extent data, bool log);
 
 struct Scale {
     bool log = false;

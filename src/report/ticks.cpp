@@ -103,19 +103,6 @@ std::vector<Decimal> round_numbers(Extent extent, int n_intervals) {
     return out;
 }
 
-// Take a common part out of numbers that share more leading digits than a label can hold; its label, or nothing.
-std::string take_offset(std::vector<Decimal>& numbers) {
-    constexpr long long longest = 10'000'000;
-    if (numbers.empty() || std::max(std::llabs(numbers.front().n), std::llabs(numbers.back().n)) < longest) return "";
-    long long unit = 1;
-    while (unit <= numbers.back().n - numbers.front().n) unit *= 10;
-    const long long n = numbers.front().n / unit * unit;
-    Decimal offset{n, numbers.front().exponent};
-    for (Decimal& d : numbers) d.n -= n;
-    for (; offset.n % 10 == 0; offset.n /= 10) ++offset.exponent;
-    return labels_of({offset}).front();
-}
-
 // All of one form; a power of ten alone is written without its factor 1 where the others need powers.
 std::vector<std::string> log_labels(const std::vector<Decimal>& numbers) {
     const bool plain =
@@ -155,7 +142,6 @@ Ticks linear_ticks(const Scale& scale, int n_intervals) {
     std::vector<double> axis_values;
     for (const Decimal& d : numbers) axis_values.push_back(on_axis(value_of(d), scale.log));
     Ticks out;
-    out.offset = take_offset(numbers);
     out.major = placed(numbers, labels_of(numbers), axis_values, scale);
     return out;
 }
@@ -197,13 +183,13 @@ Ticks log_ticks(const Scale& scale, Side side) {
     if (n_decades < 0.7) return fitting_linear_ticks(scale, side);
     if (n_decades < 2.2) {
         std::vector<Tick> ticks = decade_ticks(scale, 1, {1, 2, 5});
-        if (fits(ticks, side)) return {std::move(ticks), fine_grid(scale, 1), ""};
+        if (fits(ticks, side)) return {std::move(ticks), fine_grid(scale, 1)};
     }
     for (const int stride : {1, 2, 3, 5, 10, 20, 50}) {
         std::vector<Tick> ticks = decade_ticks(scale, stride, {1});
-        if (fits(ticks, side)) return {std::move(ticks), fine_grid(scale, stride), ""};
+        if (fits(ticks, side)) return {std::move(ticks), fine_grid(scale, stride)};
     }
-    return {decade_ticks(scale, 100, {1}), {}, ""};
+    return {decade_ticks(scale, 100, {1}), {}};
 }
 
 }  // namespace

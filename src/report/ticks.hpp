@@ -18,7 +18,6 @@ struct Tick {
 struct Ticks {
     std::vector<Tick> major;
     std::vector<double> minor;  // places of the fine grid
-    std::string offset;         // what the labels leave out, to be said in the axis label; mostly empty
 };
 
 enum class Side { bottom, left };

@@ -40,25 +40,16 @@ std::vector<double> nodes(double kink_lambda, double max_lambda) {
 
 // Signal and bias about the place where the loop settles, which unequal isotopes move away from the middle; the bias is
 // then largest at yet another one.
-//
-// The bias with saturated dispersion has no such place: its detunings are those of the perimeter.
 class Settled {
 public:
     Settled(const twin::FourWave& laser, double field_g, const twin::AveragedLaser& averaged)
         : laser_{laser}, field_g_{field_g}, settled_lambda_{averaged.settled_lambda}, chi_{averaged.bias_chi} {
-        if (settled_lambda_ != 0.0 && is_parabola()) vertex_lambda_ = largest_bias();
+        if (settled_lambda_ != 0.0) vertex_lambda_ = largest_bias();
         max_bias_hz_ = bias_hz(vertex_lambda_);
-        if (is_parabola()) centre_lambda_ = 0.0 - from_centre(0.0);
-    }
-
-    [[nodiscard]] bool is_parabola() const { return laser_.config().dispersion == twin::Dispersion::unsaturated; }
-    // Even part of the relative loss of the bias over the square of the detuning.
-    [[nodiscard]] double chi(double dl) const {
-        return (1.0 - 0.5 * (bias_hz(dl) + bias_hz(-dl)) / max_bias_hz_) / (dl * dl);
+        centre_lambda_ = 0.0 - from_centre(0.0);
     }
 
     [[nodiscard]] double signal(double dl) const { return light(dl).discriminator(); }
-    [[nodiscard]] double loss(double dl) const { return 1.0 - bias_hz(dl) / max_bias_hz_; }
     [[nodiscard]] double max_bias_hz() const { return max_bias_hz_; }
     // Of the largest bias, on the scale of `detuning`.
     [[nodiscard]] double centre_lambda() const { return centre_lambda_; }
@@ -70,7 +61,6 @@ private:
     [[nodiscard]] double bias_hz(double dl) const { return light(dl).left.bias_hz; }
 
     [[nodiscard]] double from_centre(double dl) const {
-        if (!is_parabola()) return dl;
         if (dl == vertex_lambda_) return 0.0;
         const double deficit = std::max(0.0, 1.0 - bias_hz(dl) / max_bias_hz_);
         return std::copysign(std::sqrt(deficit / chi_), dl - vertex_lambda_);
@@ -140,39 +130,6 @@ double curve_error_lambda(const config::Config& config, const Settled& laser, do
     return worst_lambda;
 }
 
-// chi and what multiplies detuning^4, ^6, ^8: the polynomial through the loss at the Chebyshev nodes of the detuning's
-// square, by Newton's divided differences.
-std::vector<double> loss_terms(const Settled& laser, double max_lambda) {
-    constexpr std::size_t n = 4;
-    std::vector<double> square, difference, terms(n, 0.0);
-    for (std::size_t k = 0; k < n; ++k) {
-        const double node = core::maths::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / n);
-        square.push_back(0.5 * (1.0 + node) * max_lambda * max_lambda);
-        difference.push_back(laser.chi(std::sqrt(square.back())));
-    }
-    for (std::size_t order = 1; order < n; ++order)
-        for (std::size_t k = n; k-- > order;)
-            difference[k] = (difference[k] - difference[k - 1]) / (square[k] - square[k - order]);
-    for (std::size_t k = n; k-- > 0;) {
-        for (std::size_t power = n; power-- > 1;) terms[power] = terms[power - 1] - square[k] * terms[power];
-        terms[0] = difference[k] - square[k] * terms[0];
-    }
-    return terms;
-}
-
-void take_loss(const Settled& laser, double max_lambda, LaserCalibration& made) {
-    const std::vector<double> terms = loss_terms(laser, max_lambda);
-    config::Gyro& gyro = made.config.gyro;
-    gyro.bias_chi = terms[0];
-    gyro.bias_chi_higher.assign(terms.begin() + 1, terms.end());
-    made.chi_error_ratio = 0.0;
-    constexpr int n_probes = 100;
-    for (int k = -n_probes; k <= n_probes; ++k) {
-        const double dl = 0.1 * k / n_probes;
-        made.chi_error_ratio = std::max(made.chi_error_ratio, std::abs(laser.loss(dl) - loss(gyro, dl)));
-    }
-}
-
 LaserCalibration calibrate(const config::Config& config) {
     LaserCalibration made{.config = config};
     const twin::FourWave laser{config.laser};
@@ -213,18 +170,10 @@ LaserCalibration calibrate(const config::Config& config) {
                      curve_error_lambda(made.config, settled, side.sign * kink_lambda, side.sign * side.max_lambda));
     }
     made.chi_error_ratio = averaged.bias_residual_ratio;
-    if (!settled.is_parabola()) take_loss(settled, made.third_wave_lambda, made);
     return made;
 }
 
 }  // namespace
-
-double loss(const config::Gyro& gyro, double detuning_lambda) {
-    const double square = detuning_lambda * detuning_lambda;
-    double sum = 0.0;
-    for (std::size_t k = gyro.bias_chi_higher.size(); k-- > 0;) sum = (sum + gyro.bias_chi_higher[k]) * square;
-    return (gyro.bias_chi + sum) * square;
-}
 
 LaserCalibration calibration_of_laser(const config::Config& config) {
     try {

@@ -84,7 +84,6 @@ std::string calibration_toml(const rig::LaserCalibration& found) {
     text += fmt::format("bias_hz = {:.10g}\n", gyro.bias_hz);
     text += fmt::format("bias_chi = {:.10g}  # the bias is within {:.2g} of its law up to 0.1 wavelength\n",
                         gyro.bias_chi, found.chi_error_ratio);
-    if (!gyro.bias_chi_higher.empty()) text += list_line("bias_chi_higher", gyro.bias_chi_higher);
     text += fmt::format("discriminator_per_lambda = {:.10g}\n\n[perimeter]\n", gyro.discriminator_per_lambda);
     const bool goes_beyond = found.curve_error_beyond_lambda > 0.0;
     text += fmt::format("# Inverse discriminator: error {:.2g} wavelength up to {:.4g}{}.\n", found.curve_error_lambda,

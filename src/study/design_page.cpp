@@ -37,37 +37,19 @@ Figure budget_figure(const config::Config& config) {
 }
 
 report::Table interval_table(const DesignResult& result) {
-    report::Table t{
-        .caption =
-            "Each method minimises its own budget, so compare intervals, not drifts. The last columns say what "
-            "missing the interval by 30 % costs.",
-        .header = {"run, s", "method", "interval, s", "drift, deg/h", "rise at 0.7 of it, deg/h",
-                   "rise at 1.3 of it, deg/h"}};
+    report::Table t{.caption = "Each method minimises its own budget, so compare intervals, not drifts.",
+                    .header = {"run, s", "method", "interval, s", "drift, deg/h"}};
     for (const IntervalLine& l : result.intervals)
-        t.rows.push_back(report::row(
-            l.run_s, design::name(l.method), l.optimum.interval_s, l.optimum.drift_arcsec_s,
-            l.sensitivity.shorter_arcsec_s,
-            l.sensitivity.longer_arcsec_s ? short_number(*l.sensitivity.longer_arcsec_s) : "beyond the run"));
+        t.rows.push_back(report::row(l.run_s, design::name(l.method), l.optimum.interval_s, l.optimum.drift_arcsec_s));
     return t;
 }
 
-std::string root_text(const design::Roots& roots) {
-    return roots.status == design::RootStatus::found ? short_number(roots.smaller_s)
-                                                     : std::string{design::sentence(roots.status)};
-}
-
 report::Table run_table(const DesignResult& result) {
-    report::Table t{
-        .caption =
-            "The terms of the corrected budget at its best interval, and another policy: a first segment of half the "
-            "length.",
-        .header = {"run, s", "non-magnetic, deg/h", "quasi-non-magnetic", "sawtooth", "switches", "root of (9c), s",
-                   "root of printed (9), s", "half first segment: interval, s", "drift, deg/h"}};
+    report::Table t{.caption = "The terms of the corrected budget at its best interval.",
+                    .header = {"run, s", "non-magnetic, deg/h", "quasi-non-magnetic", "sawtooth", "switches"}};
     for (const RunLine& r : result.runs)
         t.rows.push_back(report::row(r.run_s, r.terms.nonmagnetic_arcsec_s, r.terms.quasi_nonmagnetic_arcsec_s,
-                                     r.terms.sawtooth_arcsec_s, r.terms.switch_errors_arcsec_s,
-                                     root_text(r.corrected_roots), root_text(r.roots_as_printed),
-                                     r.half_first_segment.interval_s, r.half_first_segment.drift_arcsec_s));
+                                     r.terms.sawtooth_arcsec_s, r.terms.switch_errors_arcsec_s));
     return t;
 }
 
@@ -97,12 +79,11 @@ report::Table loop_table(const LoopLine& l) {
                 {"T/tau, and its limit of stability for " + l.stability_note,
                  fmt::format("{}, {}", short_number(l.tick_over_tau), short_number(l.stability_limit))},
                 {fmt::format("re-lock to 0.01 wavelength from {}", short_number(l.relock_from_lambda)),
-                 fmt::format("{} ms{}{}; without limiter and slew {} ms", short_number(1e3 * l.relock_s),
-                             l.relock_note.empty() ? "" : ", ", l.relock_note, short_number(1e3 * l.relock_linear_s))},
+                 fmt::format("{} ms{}{}", short_number(1e3 * l.relock_s), l.relock_note.empty() ? "" : ", ",
+                             l.relock_note)},
                 {"false angle of that re-lock",
                  fmt::format("{} arcsec; by (T/4) G(0+) {} arcsec", short_number(l.false_angle_arcsec),
-                             short_number(l.false_angle_law_arcsec))},
-                {"capture range of the detector", fmt::format("{} wavelength", short_number(l.capture_lambda))}}};
+                             short_number(l.false_angle_law_arcsec))}}};
 }
 
 report::Table miss_table(const LoopLine& l) {
@@ -111,30 +92,6 @@ report::Table miss_table(const LoopLine& l) {
     t.rows.push_back(report::row("root sum square", l.miss.root_sum_square_lambda));
     t.rows.push_back(report::row("all of one sign", l.miss.worst_lambda));
     return t;
-}
-
-Figure false_drift_figure(const LoopLine& l, double tick_s) {
-    Figure f = report::blank_figure(
-        "relock", "False drift after the loop is closed",
-        "The reading of the ticks after a switch, by simulation of the loop from the configured miss, "
-        "before correction.",
-        "tick after closing", "false drift, deg/h");
-    Series s = blank_series("simulated", Mark::points);
-    for (std::size_t k = 0; k < l.false_drift_arcsec_s.size(); ++k)
-        add_point(s, static_cast<double>(k + 1), l.false_drift_arcsec_s[k]);
-    f.series = {std::move(s)};
-    f.caption += fmt::format(" A tick is {} ms.", short_number(1e3 * tick_s));
-    return f;
-}
-
-Figure step_figure(const LoopLine& l, double tick_s) {
-    Figure f =
-        report::blank_figure("step", "Step response of the linear loop",
-                             "The part of a step of the perimeter that the loop has made up.", "time, ms", "made up");
-    Series s = blank_series("without limiter and slew");
-    for (std::size_t k = 0; k < l.step.size(); ++k) add_point(s, 1e3 * tick_s * static_cast<double>(k + 1), l.step[k]);
-    f.series = {std::move(s)};
-    return f;
 }
 
 std::string best_list(const DesignResult& result) {
@@ -184,8 +141,7 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
         {.heading = "Interval",
          .paragraphs =
              {"corrected: run mean of the thermal term and the sawtooth of the cold gyro. worst_case: exact, "
-              "at the worst switch. as_printed: the paper's formula with its mistake. closed_form: no "
-              "thermal change. random_sign: switch errors independent of each other.",
+              "at the worst switch. as_printed: the paper's formula with its mistake.",
               fmt::format("The tables take design.switch_error_arcsec = {} for the error of a switch. Of this gyro it "
                           "is {} arcsec rms, {}. The least drift with independent errors of that size:{}.{}",
                           short_number(config.design.switch_error_arcsec), short_number(result.switch_error_arcsec),
@@ -198,10 +154,8 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
                         "symmetrically. Re-lock: uncorrected its whole false angle, else the light noise of a "
                         "mean-square correction, in the angle itself and through the points after the gap."},
          .tables = {substitution_table(result)}});
-    page.sections.push_back({.heading = "Perimeter loop",
-                             .tables = {loop_table(result.loop), miss_table(result.loop)},
-                             .figures = {false_drift_figure(result.loop, config.gyro.tick_s),
-                                         step_figure(result.loop, config.gyro.tick_s)}});
+    page.sections.push_back(
+        {.heading = "Perimeter loop", .tables = {loop_table(result.loop), miss_table(result.loop)}});
     page.sections.push_back(how_made("design", config));
     return page;
 }

@@ -19,9 +19,6 @@ RunLine run_line(const config::Config& config, double switch_error, double run_s
     RunLine line{.run_s = run_s};
     line.best = best_interval(config, switch_error, run_s);
     line.terms = design::corrected_terms(task, design::optimum(design::IntervalMethod::corrected, task).interval_s);
-    line.half_first_segment = design::worst_case_optimum(task, design::FirstSegment::half);
-    line.corrected_roots = design::corrected_roots(task);
-    line.roots_as_printed = design::roots_as_printed(task);
     return line;
 }
 
@@ -62,8 +59,7 @@ DesignResult designed(const config::Config& config) {
     for (double run_s : config.design.run_lengths_s) {
         const design::DriftCase task = drift_case(config, run_s);
         for (design::IntervalMethod method : design::interval_methods)
-            result.intervals.push_back(
-                {run_s, method, design::optimum(method, task), design::sensitivity(method, task)});
+            result.intervals.push_back({run_s, method, design::optimum(method, task)});
         result.runs.push_back(run_line(config, result.switch_error_arcsec, run_s));
     }
     result.substitution = substitution_lines(config);

@@ -65,7 +65,6 @@ public:
         for (const rig::LoopHalf* half : {&first, &second}) {
             take_health(*half);
             count_.take(*half);
-            count_health(*half);
             if (half->control.has_event) events_[half->control.event.tick_opened] = *half;
         }
         for (Variant& v : variants_) {
@@ -108,7 +107,6 @@ public:
         result.fringe_lost_ticks = fringe_lost_ticks_;
         result.magnified = magnifier_.ticks();
         result.relock_false_drift_deg_h = profile_.mean_deg_h(task_.config.gyro.tick_s);
-        result.health = health_times();
     }
 
 private:
@@ -181,25 +179,6 @@ private:
         return lines;
     }
 
-    void count_health(const rig::LoopHalf& half) {
-        for (std::uint32_t bits = half.control.health; bits != 0; bits &= bits - 1) {
-            auto& [first, n] = halves_of_bit_[static_cast<std::size_t>(std::countr_zero(bits))];
-            if (n++ == 0) first = half.record.half;
-        }
-    }
-
-    [[nodiscard]] std::vector<HealthTime> health_times() const {
-        const double half_s = 0.5 * task_.config.gyro.tick_s;
-        std::vector<HealthTime> out;
-        for (std::size_t bit = 0; bit < halves_of_bit_.size(); ++bit) {
-            if (const auto& [first, n] = halves_of_bit_[bit]; n > 0)
-                out.push_back({core::health_bit_names.at(bit), static_cast<double>(first) * half_s,
-                               static_cast<double>(n) * half_s});
-        }
-        std::ranges::stable_sort(out, {}, &HealthTime::first_s);
-        return out;
-    }
-
     // A tick lies between the borders at the ends of its halves.
     void count_whole(const rig::LoopHalf& first, const rig::LoopHalf& second) {
         const bool reads = task_.config.gyro.readout == config::Readout::phase;
@@ -229,8 +208,6 @@ private:
     std::int64_t lost_ticks_ = 0;  // without a sigma
     std::int64_t whole_count_ticks_ = 0, fringe_lost_ticks_ = 0;
     std::map<std::int64_t, rig::LoopHalf> events_;  // by the first tick of the gap: the half in which its lock was seen
-    // By bit of health: the first half, and how many.
-    std::array<std::pair<std::int64_t, std::int64_t>, core::health_bit_names.size()> halves_of_bit_{};
 };
 
 // Where the interval is shorter than what the loop needs to lock anew.

@@ -30,33 +30,6 @@ std::vector<std::string> result_text(const config::Config& config, const RunResu
     return text;
 }
 
-// What was done to the gyro, and what its core noticed.
-report::Section fault_section(const config::Config& config, const RunResult& result) {
-    report::Section section{.heading = "Faults"};
-    report::Table faults{.caption = "What was made to fail.", .header = {"fault", "from, s", "for, s", "size"}};
-    const config::Faults& f = config.faults;
-    for (std::size_t i = 0; i < f.kind.size(); ++i) {
-        const twin::FaultFacts& facts = twin::facts(f.kind[i]);
-        faults.rows.push_back(report::row(facts.name, f.at_s.at(i), f.duration_s.at(i),
-                                          fmt::format("{} {}", short_number(f.size.at(i)), facts.unit)));
-    }
-    if (!faults.rows.empty()) section.tables.push_back(std::move(faults));
-    if (f.random_per_hour > 0.0)
-        section.paragraphs.push_back(fmt::format("Faults came at random, {} an hour, of seed {}.",
-                                                 short_number(f.random_per_hour), f.random_seed));
-    report::Table noticed{
-        .caption =
-            "What the core reported in the whole run: bits of its health, also those of an ordinary switch or "
-            "start. health.csv has each change.",
-        .header = {"bit of health", "first at, s", "in all, s"}};
-    for (const HealthTime& h : result.health) noticed.rows.push_back(report::row(h.name, h.first_s, h.total_s));
-    if (noticed.rows.empty())
-        section.paragraphs.emplace_back("The core noticed nothing: no bit of its health was set.");
-    else
-        section.tables.push_back(std::move(noticed));
-    return section;
-}
-
 report::Table relock_table(const RunResult& result) {
     report::Table table{
         .caption =
@@ -77,7 +50,7 @@ report::Section switch_section(const RunResult& result) {
         .paragraphs = {"Switching takes the perimeter from one longitudinal mode to the next, of opposite "
                        "circular polarisation. On the way there is no light in both directions and the gyro "
                        "is blind; just after it, the bias is not yet what it should be and the gyro lies."},
-        .figures = {magnified_figure(result), detuning_figure(result), piezo_figure(result)}};
+        .figures = {magnified_figure(result), detuning_figure(result)}};
     if (!result.relock_false_drift_deg_h.empty()) section.tables.push_back(relock_table(result));
     return section;
 }
@@ -87,14 +60,7 @@ std::string lead(const config::Config& config, const RunResult& result) {
                                    short_number(1e3 * result.tick_s));
     if (!result.switches.empty() && config.switching.schedule == config::Schedule::fixed)
         text += fmt::format(", a switch every {} s", short_number(config.switching.interval_s));
-    text += "; the true motion is known, so every error is. ";
-    if (!faults_of(config).empty()) return text + "What a fault left in the angle is part of every drift below.";
-    return text + fmt::format(
-                      "As configured the angle drifts by {} deg/h and ends {} arcsec from the truth; never switched it "
-                      "would have drifted by {} deg/h.",
-                      short_number(result.variants.back().drift_arcsec_s),
-                      short_number(result.variants.back().angle_error_arcsec),
-                      short_number(result.variants.front().drift_arcsec_s));
+    return text + "; the true motion is known, so every error is.";
 }
 
 }  // namespace
@@ -147,10 +113,7 @@ report::Page run_page(const config::Config& config, const RunResult& result) {
                              .paragraphs = result_text(config, result),
                              .tables = {variant_table(config, result), meaning_table(result)},
                              .figures = {sawtooth_figure(config, result)}});
-    auto& figures = page.sections.back().figures;
-    if (!result.switches.empty()) figures.push_back(sum_figure(result));
-    figures.push_back(error_deviation_figure(result));
-    if (!faults_of(config).empty()) page.sections.push_back(fault_section(config, result));
+    if (!result.switches.empty()) page.sections.back().figures.push_back(sum_figure(result));
     if (!result.magnified.empty()) page.sections.push_back(switch_section(result));
     if (!result.switches.empty())
         page.sections.push_back(
@@ -158,7 +121,7 @@ report::Page run_page(const config::Config& config, const RunResult& result) {
              .paragraphs =
                  {"What is left after compensation, switch by switch. The file of switches lists each of them with "
                   "its claimed and its true error."},
-             .figures = {error_size_figure(result), switch_error_figure(result)}});
+             .figures = {switch_error_figure(result)}});
     page.sections.push_back(how_made("run", config));
     page.sections.back().paragraphs.push_back(
         fmt::format("Fingerprint of the run: {}. Made again by this version, on any machine, it has the same.",

@@ -31,7 +31,7 @@ TEST(ChoicePage, has_the_pictures_that_decide) {
     std::vector<std::string> ids;
     for (const report::Section& section : page.sections)
         for (const report::Figure& figure : section.figures) ids.push_back(figure.id);
-    EXPECT_EQ(ids, (std::vector<std::string>{"error-interval", "probability", "budget-bars"}));
+    EXPECT_EQ(ids, (std::vector<std::string>{"error-interval"}));
     EXPECT_NE(page.verdict.find("at most 15 arcsec after 600 s in 0.750 +- 0.090 of 20 gyros"), std::string::npos)
         << page.verdict;
     const report::Series& share = page.sections[1].figures[1].series[0];

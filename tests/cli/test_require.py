@@ -49,16 +49,10 @@ class Require(CliTest):
         self.assertEqual(len(answer["would_need"]), 7)
         self.assertIn("error-interval", page.read_text())
 
-    def test_the_papers_rules_alone(self):
-        path = self.folder / "paper.toml"
-        path.write_text("[require]\nrun_s = 600\ndrift_arcsec_s = 0.3\n")
-        answer = json.loads(self.succeed("design", "--require", path, "--rules", "paper", "--json").stdout)
-        self.assertAlmostEqual(answer["choice"]["switching"]["interval_s"], 88.5, delta=0.05)
-
     def test_bad_usage_is_one_line(self):
         path = self.required("angle_error_arcsec = 30")
         for arguments in (["--require", path, "--run-lengths", "600"], ["--require", path, "--config", path],
-                          ["--rules", "paper"], ["--require", path, "--rules", "mine"], ["--require", path, "--out", "a.pdf"],
+                          ["--require", path, "--out", "a.pdf"],
                           ["--require", self.folder / "none.toml"], ["--require", path, "--set", "gyro.tick_s=-1"],
                           ["--require", path, "--out", path]):
             done = run("design", *arguments)
@@ -71,7 +65,7 @@ class Require(CliTest):
         path = self.required("angle_error_arcsec = 30")
         for sets, key in ((field, "field.kind"), (profile, "temperature.profile")):
             setting = [word for one in sets for word in ("--set", one)]
-            for arguments in (["design"], ["design", "--require", path], ["design", "--require", path, "--rules", "paper"],
+            for arguments in (["design"], ["design", "--require", path],
                               ["run", "--duration", "60", "--set", "switching.interval_s=optimal"]):
                 done = run(*arguments, *setting)
                 self.assertEqual(done.returncode, 2, (arguments, done.stdout, done.stderr))

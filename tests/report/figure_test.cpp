@@ -26,11 +26,10 @@ std::vector<Figure> odd_figures() {
         figure({}),
         figure({series({}, {})}),
         figure({series({5.0}, {3.0})}),
-        figure({series({5.0}, {3.0}, Mark::bars)}),
         figure({series({1.0, 2.0}, {4.0, 4.0})}),
         figure({series({0.0, 0.0}, {0.0, 0.0})}),
         figure({series({1.0, 2.0}, {not_a_number, infinity})}),
-        figure({series({not_a_number, infinity}, {1.0, 2.0}, Mark::bars)}, true, true),
+        figure({series({not_a_number, infinity}, {1.0, 2.0}, Mark::points)}, true, true),
         figure({series({-1e308, 1e308}, {1e-310, 2e-300}), series({0.0}, {1e308}, Mark::points)}),
         figure({series({1e-310, 1e308}, {4.9e-324, 1.7e308})}, true, true),
         figure({series({1e-310, 1e308}, {1e-322, 1e-322})}, true, true),
@@ -189,26 +188,6 @@ TEST(Svg, an_error_bar_that_reaches_zero_does_not_stretch_a_log_axis) {
     data.y_error = {9.99999, 25.0};
     const auto ticks = ticks_seen(markup::read(svg(figure({data}, false, true))), "y-ticks");
     EXPECT_GE(ticks.front().value, 5.0);
-}
-
-TEST(Svg, bars_of_counts_start_at_zero) {
-    const auto elements = markup::read(svg(figure({series({1, 2}, {90, 100}, Mark::bars)})));
-    const auto bars = markup::all(elements, "rect", "series");
-    const double low = markup::number(bars.at(0), "y") + markup::number(bars.at(0), "height");
-    EXPECT_NEAR(low, plot_of(elements).bottom, 0.02);
-    EXPECT_NEAR(read_off(ticks_seen(elements, "y-ticks"), low, false), 0.0, 0.5);
-}
-
-TEST(Svg, bars_stand_on_zero_and_touch) {
-    const auto elements = markup::read(svg(figure({series({1, 2, 3}, {4, -2, 6}, Mark::bars)})));
-    const auto bars = markup::all(elements, "rect", "series");
-    ASSERT_EQ(bars.size(), 3U);
-    const auto y = ticks_seen(elements, "y-ticks");
-    const auto low = [&](const auto& bar) { return markup::number(bar, "y") + markup::number(bar, "height"); };
-    EXPECT_NEAR(read_off(y, low(bars[0]), false), 0.0, 0.05);
-    EXPECT_NEAR(read_off(y, markup::number(bars[1], "y"), false), 0.0, 0.05);
-    EXPECT_NEAR(read_off(y, low(bars[1]), false), -2.0, 0.05);
-    EXPECT_NEAR(markup::number(bars[0], "x") + markup::number(bars[0], "width"), markup::number(bars[1], "x"), 0.02);
 }
 
 TEST(Svg, a_series_can_have_the_colour_and_marker_of_another) {

@@ -87,25 +87,6 @@ TEST(LaserCalibration, of_unequal_isotopes_the_squares_are_what_the_bias_lacks_o
     }
 }
 
-// What is presumed of a bias with holes is the bias, up to where a third wave bends it.
-TEST(LaserCalibration, of_saturated_dispersion_the_higher_powers_are_the_bias) {
-    config::Config c;
-    c.laser.dispersion = twin::Dispersion::saturated;
-    const rig::LaserCalibration found = rig::calibration_of_laser(c);
-    const twin::FourWave laser{c.laser};
-    const double bias_hz = laser.at(0.0, 15.0).left.bias_hz;
-    EXPECT_NEAR(found.config.gyro.bias_hz, 0.99 * bias_hz, 1.0);
-    EXPECT_EQ(found.config.perimeter.discriminator_centre_lambda, 0.0);
-    const core::DiscriminatorCurve curve = rig::control_config(found.config).detector.curve;
-    for (double dl = 0.004; dl < found.third_wave_lambda; dl += 0.005) {
-        const twin::LaserLight light = laser.at(dl, 15.0);
-        EXPECT_NEAR(1.0 - light.left.bias_hz / bias_hz, rig::loss(found.config.gyro, dl), 1e-3) << dl;
-        const double signal = light.discriminator() / found.config.gyro.discriminator_per_lambda;
-        EXPECT_NEAR(core::true_detuning(curve, signal).detuning_lambda, dl, 3e-4) << dl;
-    }
-    EXPECT_LT(found.chi_error_ratio, 2e-4);
-}
-
 TEST(LaserCalibration, refuses_a_laser_without_light) {
     config::Config c;
     c.laser.gain_loss_ratio = 0.9;

@@ -94,42 +94,6 @@ TEST(FourWave, AgreesWithQuadratureForGasOfUnequalIsotopes) {
     }
 }
 
-LaserConfig saturated(LaserConfig config) {
-    config.dispersion = Dispersion::saturated;
-    return config;
-}
-
-TEST(FourWave, TheSaturatedBiasAgreesWithQuadrature) {
-    const LaserConfig unequal{.upper_isotope_ratio = 0.465, .opposite_sigma_coupling = 0.8};
-    for (const LaserConfig& gas : {LaserConfig{}, unequal}) {
-        const LaserConfig config = saturated(gas);
-        const FourWave laser{config};
-        const ReferenceGas reference{config};
-        for (const double p : {-0.1, 0.0, 0.05, 0.17, 0.225, 0.25, 0.28}) {
-            SCOPED_TRACE(p);
-            const double other = p < 0.0 ? p + 0.5 : p - 0.5;
-            const LaserLight light = laser.at(p, 15.0);
-            const ReferenceLaser expected = reference.at(p, other, 15.0);
-            const double left_hz = expected.pulling_hz[0] - expected.pulling_hz[1];
-            const double right_hz = expected.pulling_hz[2] - expected.pulling_hz[3];
-            EXPECT_NEAR(light.left.bias_hz, left_hz, 1e-6 * std::abs(left_hz));
-            EXPECT_NEAR(light.right.bias_hz, right_hz, 1e-6 * std::abs(right_hz));
-        }
-    }
-}
-
-// Figures of a quadrature in another language, by others.
-TEST(FourWave, TheHolesOfTheDefaultGasTakeTheParabolaFromTheBias) {
-    const FourWave laser{saturated({})};
-    const double centre_hz = laser.at(0.0, 15.0).left.bias_hz;
-    EXPECT_NEAR(centre_hz, 57391.0, 1.0);
-    const auto chi = [&](double dl) { return (1.0 - laser.at(dl, 15.0).left.bias_hz / centre_hz) / (dl * dl); };
-    EXPECT_NEAR(chi(0.05), 0.27, 0.01);
-    EXPECT_NEAR(chi(0.10), 0.02, 0.01);
-    EXPECT_NEAR(chi(0.15), -0.41, 0.01);
-    EXPECT_NEAR(chi(0.20), -0.29, 0.01);
-}
-
 // ---- limits and symmetries
 
 TEST(FourWave, WithoutFieldThereIsNoBiasAndTheBeamsAreEqual) {

@@ -39,14 +39,6 @@ public:
             }
         }
         result.intensity = followed(net_gain, saturation);
-        if (c_.dispersion == Dispersion::unsaturated) return result;
-        for (std::size_t i = 0; i < 4; ++i) {
-            for (std::size_t j = 0; j < 4; ++j) {
-                const double coupling = i == j || i + j == 3 ? 1.0 : c_.opposite_sigma_coupling;
-                const double hole = coupling * result.intensity[j] * dispersion_of_hole(wave[i], wave[j]);
-                result.pulling_hz[i] += range_hz_ / (2.0 * std::numbers::pi) * 0.5 * gain_ * hole;
-            }
-        }
         return result;
     }
 
@@ -89,15 +81,6 @@ private:
         return averaged([&](double line_hz, double doppler_hz) {
             const double off = w.hz - line_hz - w.shift_hz - w.direction * doppler_hz;
             return gamma * off / (gamma * gamma + off * off);
-        });
-    }
-
-    // What the absence of the atoms that `burning` has saturated takes from the dispersion.
-    [[nodiscard]] double dispersion_of_hole(const Wave& w, const Wave& burning) const {
-        const double gamma = c_.homogeneous_half_width_hz;
-        return averaged([&](double line_hz, double doppler_hz) {
-            const double off = w.hz - line_hz - w.shift_hz - w.direction * doppler_hz;
-            return height(burning, line_hz, doppler_hz) * gamma * off / (gamma * gamma + off * off);
         });
     }
 

@@ -43,7 +43,6 @@ const TabledLaser cases[] = {
     {"dark middle", {.gain_loss_ratio = 1.1}, 16.5},
     {"high gain", {.gain_loss_ratio = 1.4}, 16.5},
     {"unequal isotopes", {.upper_isotope_ratio = 0.465}, 16.5},
-    {"saturated dispersion", {.dispersion = Dispersion::saturated}, 16.5},
     {"narrow line", {.homogeneous_half_width_hz = 80e6}, 16.5},
     {"one isotope", {.gain_loss_ratio = 1.1, .isotope_shift_hz = 0.0}, 16.5},
 };

@@ -44,20 +44,6 @@ TEST(LorentzAverage, OverlapAgreesWithQuadratureFromEqualHolesToDistantOnes) {
     }
 }
 
-TEST(LorentzAverage, PushAgreesWithQuadratureFromEqualHolesToDistantOnes) {
-    for (const double y : half_widths) {
-        for (const double a : {-0.9, 0.0, 0.488, 1.9}) {
-            for (const double d : {0.0, 1e-13, 1e-8, 1e-4, 0.0101, 0.0202, 0.0301, -0.4, 1.0, -3.0}) {
-                const auto push = [&](double v) {
-                    return y * (a - v) / (y * y + (v - a) * (v - a)) * lorentzian(v, a + d, y);
-                };
-                EXPECT_NEAR(average_push(Hole{a, y}, Hole{a + d, y}), averaged(push), 1e-12)
-                    << "y " << y << " a " << a << " d " << d;
-            }
-        }
-    }
-}
-
 TEST(LorentzAverage, OverlapIsSymmetric) {
     for (const double d : {1e-9, 0.01, 0.02, 0.3}) {
         const Hole a{0.4, 0.1433};

@@ -1,5 +1,6 @@
 #include <zlg/twin/optical_beats.hpp>
 
+#include "quadrature_decoder.hpp"
 #include "test.hpp"
 #include "turns_from.hpp"
 

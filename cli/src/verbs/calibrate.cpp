@@ -37,22 +37,18 @@ std::string curve_text(const study::CalibrationResult& result) {
 
 json laser_json(const rig::LaserCalibration& found) {
     const config::Config& c = found.config;
-    json made = {
-        {"constants",
-         {{"gyro.bias_hz", {{"value", c.gyro.bias_hz}, {"unit", "Hz"}}},
-          {"gyro.bias_chi", {{"value", c.gyro.bias_chi}, {"unit", ""}}},
-          {"gyro.discriminator_per_lambda", {{"value", c.gyro.discriminator_per_lambda}, {"unit", "1/lambda"}}}}},
-        {"discriminator",
-         {{"detuning_lambda", c.perimeter.discriminator_detuning_lambda},
-          {"signal", c.perimeter.discriminator_signal},
-          {"centre_lambda", c.perimeter.discriminator_centre_lambda},
-          {"third_wave_lambda", found.third_wave_lambda},
-          {"error_lambda", found.curve_error_lambda},
-          {"error_beyond_lambda", found.curve_error_beyond_lambda}}},
-        {"chi_error_ratio", found.chi_error_ratio}};
-    if (!c.gyro.bias_chi_higher.empty())
-        made["constants"]["gyro.bias_chi_higher"] = {{"value", c.gyro.bias_chi_higher}, {"unit", ""}};
-    return made;
+    return {{"constants",
+             {{"gyro.bias_hz", {{"value", c.gyro.bias_hz}, {"unit", "Hz"}}},
+              {"gyro.bias_chi", {{"value", c.gyro.bias_chi}, {"unit", ""}}},
+              {"gyro.discriminator_per_lambda", {{"value", c.gyro.discriminator_per_lambda}, {"unit", "1/lambda"}}}}},
+            {"discriminator",
+             {{"detuning_lambda", c.perimeter.discriminator_detuning_lambda},
+              {"signal", c.perimeter.discriminator_signal},
+              {"centre_lambda", c.perimeter.discriminator_centre_lambda},
+              {"third_wave_lambda", found.third_wave_lambda},
+              {"error_lambda", found.curve_error_lambda},
+              {"error_beyond_lambda", found.curve_error_beyond_lambda}}},
+            {"chi_error_ratio", found.chi_error_ratio}};
 }
 
 std::string calibration_text(const study::CalibrationResult& result) {

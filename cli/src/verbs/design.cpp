@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include <zlg/choice/choice_page.hpp>
-#include <zlg/choice/paper_rules.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/study/design_study.hpp>
 
@@ -25,7 +24,6 @@ using nlohmann::json;
 struct DesignOptions : Options {
     std::optional<std::string> run_lengths;
     std::string require;
-    std::string rules;
 };
 
 json interval_json(const study::IntervalLine& l) {
@@ -33,23 +31,13 @@ json interval_json(const study::IntervalLine& l) {
     j["run_s"] = l.run_s;
     j["method"] = design::name(l.method);
     j["status"] = design::sentence(l.optimum.status);
-    j["rise_at_0_7_arcsec_s"] = l.sensitivity.shorter_arcsec_s;
-    j["rise_at_1_3_arcsec_s"] = l.sensitivity.longer_arcsec_s ? json(*l.sensitivity.longer_arcsec_s) : json(nullptr);
     return j;
-}
-
-json roots_json(const design::Roots& roots) {
-    return {{"status", design::sentence(roots.status)},
-            {"interval_s", roots.status == design::RootStatus::found ? json(roots.smaller_s) : json(nullptr)}};
 }
 
 json run_json(const study::RunLine& r) {
     json j = fields_json(r.terms);
     j["run_s"] = r.run_s;
     j["best"] = fields_json(r.best);
-    j["corrected_9"] = roots_json(r.corrected_roots);
-    j["printed_9"] = roots_json(r.roots_as_printed);
-    j["half_first_segment"] = fields_json(r.half_first_segment);
     return j;
 }
 
@@ -99,10 +87,6 @@ void design_gyro(const DesignOptions& options) {
 
 // What the options exclude, said before gyros run.
 void check_required(const DesignOptions& options) {
-    if (!options.rules.empty() && options.rules != "paper")
-        throw UsageError{fmt::format("--rules {}: allowed is paper", printable(options.rules))};
-    if (!options.rules.empty() && options.require.empty())
-        throw UsageError{"--rules paper: is for --require REQUIRE.toml"};
     if (options.require.empty()) return;
     if (!options.config_path.empty() || options.run_lengths)
         throw UsageError{
@@ -120,7 +104,6 @@ void check_required(const DesignOptions& options) {
 }
 
 choice::Answer chosen(const DesignOptions& options, const choice::Requirement& requirement) {
-    if (!options.rules.empty()) return choice::by_paper_rules(requirement);
     const Interruptible interruptible;
     interruptible.will_finish();
     Progress progress;
@@ -135,8 +118,7 @@ void design_required(const DesignOptions& options) {
     if (options.seed) sets.push_back("run.seed=" + *options.seed);
     const choice::Requirement requirement = choice::read_requirement(options.require, sets);
     const choice::Answer answer = chosen(options, requirement);
-    const report::Page page = options.rules.empty() ? choice::choice_page(requirement, answer)
-                                                    : choice::paper_rules_page(requirement, answer);
+    const report::Page page = choice::choice_page(requirement, answer);
     if (!options.out.empty())
         write_file(options.out,
                    options.out.ends_with(".toml") ? choice::toml_text(requirement, answer) : report::html(page),
@@ -164,7 +146,6 @@ void add_design(CLI::App& program) {
     verb->add_option("--require", options->require,
                      "what the gyro must keep, TOML: the simplest choice that does, proved on many gyros")
         ->check(is_a_name());
-    verb->add_option("--rules", options->rules, "paper: by the paper's rules alone")->check(is_a_name());
     verb->add_option("--seed", options->seed, "seed of all noise (1)");
     verb->add_option("--threads", options->threads, "1..64 (2)")->check(CLI::Range(1, 64).description(""));
     add_output_options(*verb, *options);

@@ -20,8 +20,7 @@ Gas::Gas(const LaserConfig& c)
       spectral_range_{light_m_s / c.perimeter_m / c.doppler_half_width_hz},
       shift_per_g_{c.zeeman_hz_per_g / c.doppler_half_width_hz},
       opposite_coupling_{c.opposite_sigma_coupling},
-      loss_{c.round_trip_loss_ratio},
-      is_saturated_{c.dispersion == Dispersion::saturated} {
+      loss_{c.round_trip_loss_ratio} {
     gain_ = c.gain_loss_ratio / gain_loss(0.0);
     pulling_hz_ = light_m_s / c.perimeter_m / (2.0 * std::numbers::pi) * 0.5 * gain_;
 }
@@ -36,12 +35,8 @@ double Gas::gain_loss(double detuning_lambda) const {
 
 FrameLight GasPoint::light(const Balance& balance) const {
     FrameLight light{{}, near_bias_hz, far_bias_hz};
-    for (unsigned i = 0; i < n_waves; ++i) {
-        if (!(balance.lit >> i & 1U)) continue;
-        light.near_bias_hz -= near_push_hz[i] * balance.value[i];
-        light.far_bias_hz -= far_push_hz[i] * balance.value[i];
-        light.intensity[i] = std::max(balance.value[i], 0.0);
-    }
+    for (unsigned i = 0; i < n_waves; ++i)
+        if (balance.lit >> i & 1U) light.intensity[i] = std::max(balance.value[i], 0.0);
     return light;
 }
 
@@ -62,7 +57,6 @@ GasPoint Gas::at(double near_lambda, double far_lambda, double shift) const {
         for (unsigned i = 0; i < n_waves; ++i) {
             point.competition.net_gain[i] += gain * average_line(holes[i]);
             dispersion[i] += share_[k] * direction[i] * average_dispersion(holes[i]);
-            if (is_saturated_) add_push(i, share_[k], holes, point);
             for (unsigned j = 0; j <= i; ++j) {
                 saturation[i][j] += gain * coupling(i, j) * average_overlap(holes[i], holes[j]);
                 saturation[j][i] = saturation[i][j];
@@ -75,14 +69,5 @@ GasPoint Gas::at(double near_lambda, double far_lambda, double shift) const {
 }
 
 double Gas::coupling(unsigned i, unsigned j) const { return shift_sign[i] == shift_sign[j] ? 1.0 : opposite_coupling_; }
-
-// Part of the bias that is wave i's: cw less than ccw by the pulling.
-void Gas::add_push(unsigned i, double share, const std::array<Hole, n_waves>& holes, GasPoint& point) const {
-    auto& push_hz = i < 2 ? point.near_push_hz : point.far_push_hz;
-    // The pulling is against the dispersion, the dispersion against the direction, and ccw against cw: all ways one
-    // sign.
-    for (unsigned j = 0; j < n_waves; ++j)
-        push_hz[j] -= pulling_hz_ * share * coupling(i, j) * average_push(holes[i], holes[j]);
-}
 
 }  // namespace zlg::twin

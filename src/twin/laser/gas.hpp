@@ -18,9 +18,6 @@ struct GasPoint {
     Competition competition;
     double near_bias_hz = 0.0;  // of the unsaturated gas
     double far_bias_hz = 0.0;
-    // What a unit of intensity of each wave takes from them through its holes; none of unsaturated dispersion.
-    std::array<double, n_waves> near_push_hz{};
-    std::array<double, n_waves> far_push_hz{};
 
     // Intensities of the lit waves of a balance, and the biases that go with them.
     [[nodiscard]] FrameLight light(const Balance& balance) const;
@@ -43,7 +40,6 @@ private:
     static constexpr unsigned n_isotopes = 2;
 
     [[nodiscard]] double coupling(unsigned i, unsigned j) const;
-    void add_push(unsigned i, double share, const std::array<Hole, n_waves>& holes, GasPoint& point) const;
 
     std::array<double, n_isotopes> line_;  // centres, in units of ku as all frequencies here
     std::array<double, n_isotopes> share_;
@@ -52,7 +48,6 @@ private:
     double shift_per_g_;
     double opposite_coupling_;
     double loss_;
-    bool is_saturated_;
     double gain_ = 1.0;  // G: round-trip gain over <L>
     double pulling_hz_;  // FSR/(2 pi) G/2
 };

@@ -39,16 +39,4 @@ inline double average_overlap(const Hole& a, const Hole& b) {
     return root_pi * y * y * y / (d * d + 4.0 * y * y) * (a.w.real() + b.w.real() + 2.0 * y * slope);
 }
 
-// <D_a L_b> with D_a the dispersion of a: what the hole of b takes from it. With w_b* the conjugate, by the same
-// fractions,
-//
-//   sqrt(pi) y^2 / 2 Re((w_a + w_b*) / (d + 2 i y) - (w_a - w_b) / d)
-inline double average_push(const Hole& a, const Hole& b) {
-    const double y = a.place.imag();
-    const double d = a.place.real() - b.place.real();
-    const double slope = faddeeva_slope(a.place, a.w, b.place, b.w).real();
-    const double mixed = d * (a.w.real() + b.w.real()) + 2.0 * y * (a.w.imag() - b.w.imag());
-    return 0.5 * root_pi * y * y * (mixed / (d * d + 4.0 * y * y) - slope);
-}
-
 }  // namespace zlg::twin

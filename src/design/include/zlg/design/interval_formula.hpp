@@ -4,8 +4,6 @@
 // Each is an approximation with a stated range; `switching_interval.hpp` has the exact minima. Om0 and A enter by their
 // absolute values. All: errors DesignError unless the case passes its check. Results are not limited to the run.
 
-#include <string_view>
-
 #include <zlg/design/drift_budget.hpp>
 
 namespace zlg::design {
@@ -25,9 +23,6 @@ enum class RootStatus {
     none,        // the cubic has no positive root
     beyond_run,  // it has, but no interval can be longer than the run
 };
-
-// One sentence for a reader.
-[[nodiscard]] std::string_view sentence(RootStatus status);
 
 // The positive roots. Only the smaller is near a minimum of the drift; the larger is a maximum.
 struct Roots {

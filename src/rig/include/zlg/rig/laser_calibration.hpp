@@ -14,14 +14,8 @@ struct LaserCalibration {
     double chi_error_ratio = 0.0;            // largest departure of the bias from its law, within 0.1 wavelength
 };
 
-// The relative loss of the bias that a processor presumes at a detuning from where the bias is largest.
-[[nodiscard]] double loss(const config::Gyro& gyro, double detuning_lambda);
-
 // The configuration with gyro.bias_hz, bias_chi and discriminator_per_lambda, and the calibrated points of the
 // discriminator in [perimeter], as they follow from [laser].
-//
-// With saturated dispersion the bias is no parabola: bias_chi_higher holds three more even powers of the detuning, up
-// to the third wave. They leave 1e-3 of the bias of equal isotopes; the odd part that unequal ones have is left.
 //
 // Whatever the fidelity: an averaged gyro then agrees with the laser where both are valid.
 // accuracy  of the inverse discriminator through these points: 2e-4 wavelength with two waves, 5e-3 with three.

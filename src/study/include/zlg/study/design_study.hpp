@@ -6,7 +6,6 @@
 
 #include <zlg/config/config.hpp>
 #include <zlg/design/drift_budget.hpp>
-#include <zlg/design/interval_formula.hpp>
 #include <zlg/design/switching_interval.hpp>
 #include <zlg/report/page.hpp>
 #include <zlg/study/design_lines.hpp>
@@ -18,17 +17,13 @@ struct IntervalLine {
     double run_s = 0.0;
     design::IntervalMethod method = design::IntervalMethod::corrected;
     design::Optimum optimum;
-    design::Sensitivity sensitivity;
 };
 
 // What else there is to say of one length of run.
 struct RunLine {
     double run_s = 0.0;
-    design::Optimum best;                // with what a switch of this gyro leaves
-    design::DriftTerms terms;            // of (7c) at its best interval
-    design::Optimum half_first_segment;  // worst case
-    design::Roots corrected_roots;       // (9c)
-    design::Roots roots_as_printed;      // (9)
+    design::Optimum best;      // with what a switch of this gyro leaves
+    design::DriftTerms terms;  // of (7c) at its best interval
 };
 
 struct DesignResult {

@@ -20,13 +20,6 @@
 
 namespace zlg::study {
 
-// A health bit that the control has set: when first, and for how long in all.
-struct HealthTime {
-    std::string name;
-    double first_s = 0.0;
-    double total_s = 0.0;
-};
-
 struct RunResult {
     double tick_s = 0.0;
     std::int64_t ticks = 0;
@@ -47,7 +40,6 @@ struct RunResult {
     // By phase: measured ticks whose end was read as a whole count, and those of them with health_fringe_lost.
     std::int64_t whole_count_ticks = 0, fringe_lost_ticks = 0;
     std::vector<std::string> warnings;  // what a reader of the figures must know of the configuration
-    std::vector<HealthTime> health;     // in the order of their first time
 
     // Null where there is none of this name.
     [[nodiscard]] const VariantResult* variant(std::string_view name) const {

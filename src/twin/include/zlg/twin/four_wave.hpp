@@ -10,7 +10,6 @@
 //   dI_i/dt ~ I_i (G g_i - mu - G sum_j theta_ij I_j)
 //   pulling_i = -FSR/(2 pi) G/2 sum_k f_k int W gamma (nu_i - nu_k - z_i - s_i v) / (gamma^2 + (...)^2)
 //
-// With saturated dispersion the last integral holds the holes as the gain does, 1 - sum_j p_ij I_j L_jk as a factor.
 //
 // The matrix theta is a Gram matrix times, element by element, a matrix p that is positive semidefinite for p_ij in
 // 0..1. So the intensities climb a concave hill: one stable state, reached from any start, continuous in detuning and

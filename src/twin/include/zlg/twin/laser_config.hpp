@@ -8,9 +8,6 @@ enum class Quadrature { x1, x4 };
 
 [[nodiscard]] constexpr int counts_per_turn(Quadrature quadrature) { return quadrature == Quadrature::x4 ? 4 : 1; }
 
-// The frequencies that the gas pulls a wave by: of the gas without light, or with the holes that the waves burn.
-enum class Dispersion { unsaturated, saturated };
-
 // Neon of two isotopes at 632.8 nm in a non-planar ring, whose modes of opposite helicity lie half a free spectral
 // range apart. Each default is that of a gyro with a perimeter of 16 cm.
 struct LaserConfig {
@@ -27,7 +24,6 @@ struct LaserConfig {
     // Cross-saturation of waves on opposite components; same component: 1. Up to 1 the waves have one steady state;
     // above, which of several would depend on the past.
     double opposite_sigma_coupling = 0.6;
-    Dispersion dispersion = Dispersion::unsaturated;
     double bias_field_g = 15.0;  // plateau of the square bias; its sign alternates
 
     // Light that either beam loses in all, at zero detuning and field; 0: no quantum noise. 0.28 saturation intensities
