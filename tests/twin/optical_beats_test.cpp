@@ -1,6 +1,5 @@
 #include <zlg/twin/optical_beats.hpp>
 
-#include "quadrature_decoder.hpp"
 #include "test.hpp"
 #include "turns_from.hpp"
 

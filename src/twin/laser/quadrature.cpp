@@ -1,6 +1,34 @@
 #include <zlg/twin/quadrature.hpp>
 
 namespace zlg::twin {
+namespace {
+
+bool switched(bool high, double signal, double threshold) {
+    if (signal > threshold) return true;
+    if (signal < -threshold) return false;
+    return high;
+}
+
+}  // namespace
+
+void QuadratureDecoder::see(const Signals& signals) {
+    const int before = quadrant();
+    s_high_ = switched(s_high_, signals.s, threshold_);
+    c_high_ = switched(c_high_, signals.c, threshold_);
+    switch ((quadrant() - before) & 3) {
+        case 1:
+            ++quarters_;
+            break;
+        case 2:
+            ++n_ambiguous_;
+            break;
+        case 3:
+            --quarters_;
+            break;
+        default:
+            break;
+    }
+}
 
 std::int64_t QuarterTurns::floor_of(const Turns& phase) {
     const auto quarter = static_cast<std::uint64_t>(4.0 * phase.part);

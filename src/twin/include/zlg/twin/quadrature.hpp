@@ -17,8 +17,35 @@ struct Signals {
     double c = 0.0;
 };
 
-// What comparators with hysteresis would show, sample by sample, from the phase of the phasor at its turning points
-// only.
+// The electronics as they are: sample by sample. Needs several samples a turn.
+class QuadratureDecoder {
+public:
+    // threshold  a comparator goes high above +threshold and low below -threshold.
+    QuadratureDecoder(double threshold, std::int64_t quarters) : threshold_{threshold}, quarters_{quarters} {
+        set_quadrant(static_cast<int>(quarters & 3));
+    }
+
+    void see(const Signals& signals);
+
+    [[nodiscard]] std::int64_t quarters() const { return quarters_; }
+    [[nodiscard]] int quadrant() const { return s_high_ ? (c_high_ ? 0 : 1) : (c_high_ ? 3 : 2); }
+    // Both comparators changed at once, so the direction is unknown and two counts are lost.
+    [[nodiscard]] std::int64_t n_ambiguous() const { return n_ambiguous_; }
+
+private:
+    void set_quadrant(int quadrant) {
+        s_high_ = quadrant < 2;
+        c_high_ = quadrant == 0 || quadrant == 3;
+    }
+
+    double threshold_;
+    std::int64_t quarters_;
+    std::int64_t n_ambiguous_ = 0;
+    bool s_high_ = true;
+    bool c_high_ = true;
+};
+
+// What the decoder would show, from the phase of the phasor at its turning points only.
 //
 // A comparator of threshold h switches late by asin(h/A): the count follows the phase like a body with play, and a
 // phase that rocks by less than the play moves nothing.
