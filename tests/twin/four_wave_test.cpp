@@ -114,7 +114,7 @@ void expect_same(const WavePair& a, const WavePair& b) {
 }
 
 TEST(FourWave, AReversedFieldExchangesTheBeams) {
-    const FourWave laser{saturated({.upper_isotope_ratio = 0.465})};
+    const FourWave laser{LaserConfig{.upper_isotope_ratio = 0.465}};
     for (double p = -0.49; p < 0.5; p += 0.017) {
         const LaserLight a = laser.at(p, 17.0);
         const LaserLight b = laser.at(p, -17.0);
@@ -124,7 +124,7 @@ TEST(FourWave, AReversedFieldExchangesTheBeams) {
 }
 
 TEST(FourWave, HalfAWavelengthExchangesTheHelicitiesAndReversesTheField) {
-    const FourWave laser{saturated({.upper_isotope_ratio = 0.465})};
+    const FourWave laser{LaserConfig{.upper_isotope_ratio = 0.465}};
     for (double p = -0.49; p < 0.5; p += 0.017) {
         const LaserLight a = laser.at(p, 15.0);
         const LaserLight b = laser.at(p + 2.5, -15.0);
