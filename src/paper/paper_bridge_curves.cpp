@@ -1,7 +1,5 @@
 #include "paper_bridge_curves.hpp"
 
-#include <zlg/design/taylor.hpp>
-
 namespace zlg::paper {
 namespace {
 
@@ -11,29 +9,18 @@ using report::Series;
 double zero(const BridgeCase&, int) { return 0.0; }
 double exact(const BridgeCase& c, int order) { return exact_error_arcsec(c, Fit::interpolation, order); }
 double live(const BridgeCase& c, int order) { return exact_error_arcsec(c, Fit::extrapolation, order); }
-double leading_law(const BridgeCase& c, int order) {
-    const design::Tone tone{.amplitude_arcsec_s = c.amplitude_arcsec_s, .frequency_hz = c.frequency_hz};
-    return -design::leading_error_arcsec(tone, order, c.n, c.tick_s);
-}
 
 constexpr Row at_crossing[] = {{"theory, any order: 0", 0, 0, false, zero},
                                {"series as printed, cubic term 1", 2, 1, true, series_error_as_printed_arcsec},
                                {"series, cubic term 4/3", 2, 2, true, series_error_arcsec},
                                {"twin, constant = linear", 0, 3},
                                {"twin, quadratic", 2, 4}};
-constexpr Row twin_alone[] = {at_crossing[0], at_crossing[3], at_crossing[4]};
 constexpr Row at_extremum[] = {{"constant = linear", 0, 0, false, exact},
                                {"quadratic", 2, 1, false, exact},
                                {"series, linear", 0, 0, true, series_error_arcsec},
                                {"series, quadratic", 2, 1, true, series_error_arcsec},
                                {"twin, constant = linear", 0, 0},
                                {"twin, quadratic", 2, 1}};
-constexpr Row by_leading_laws[] = {{"constant = linear", 0, 0, false, exact},
-                                   {"quadratic", 2, 1, false, exact},
-                                   {"leading law, constant = linear", 0, 0, true, leading_law},
-                                   {"leading law, quadratic", 2, 1, true, leading_law},
-                                   {"twin, constant = linear", 0, 0},
-                                   {"twin, quadratic", 2, 1}};
 constexpr Row in_real_time[] = {{"constant", 0, 0, false, live},
                                 {"linear", 1, 1, false, live},
                                 {"quadratic", 2, 2, false, live},
@@ -46,8 +33,6 @@ constexpr Row in_real_time[] = {{"constant", 0, 0, false, live},
 std::span<const Row> corrected(Region region) {
     return region == Region::crossing ? std::span{at_crossing} : std::span<const Row>{at_extremum};
 }
-std::span<const Row> leading() { return by_leading_laws; }
-std::span<const Row> twin_at_crossing() { return twin_alone; }
 std::span<const Row> delivered() { return in_real_time; }
 
 Series twin_points(Look look, const std::vector<double>& x, const std::vector<SubstitutionResult>& results, Fit fit,

@@ -48,11 +48,6 @@ struct Row {
 // the print has another series.
 [[nodiscard]] std::span<const Row> corrected(Region region);
 
-// The same without the print: exact, as the leading term at low frequency, on the twin; and the twin alone at a zero
-// crossing.
-[[nodiscard]] std::span<const Row> leading();
-[[nodiscard]] std::span<const Row> twin_at_crossing();
-
 // What is delivered in real time, extrapolated from four ticks.
 [[nodiscard]] std::span<const Row> delivered();
 

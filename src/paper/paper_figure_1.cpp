@@ -15,11 +15,10 @@ namespace {
 
 using namespace report;
 
-// A gyro whose perimeter is held at one detuning, at rest or in slow rotation.
+// A gyro at rest whose perimeter is held at one detuning.
 class HeldGyro {
 public:
-    HeldGyro(const config::Config& config, double detuning_lambda, double rate_arcsec_s = 0.0)
-        : twin_{twin_config(config), twin::Motion::sines(rate_arcsec_s, {})} {
+    HeldGyro(const config::Config& config, double detuning_lambda) : twin_{twin_config(config), twin::Motion::rest()} {
         const double middle_v = 0.5 * (config.piezo.range_min_v + config.piezo.range_max_v);
         actuator_.set_point_v[0] = middle_v + 2.0 * config.piezo.half_wave_v * detuning_lambda;
         // The high-voltage stage takes some milliseconds to get there. The next half has the sign of the first.
@@ -82,41 +81,14 @@ Series light_of(const config::Config& config, double detuning_lambda) {
     return s;
 }
 
-Series law_of_bias(const config::Gyro& gyro) {
-    Series law{.name = "f\u2080(1 \u2212 \u03C7 \u0394\u03BB\u00B2), eq (2)"};
-    for (int k = -40; k <= 40; ++k)
-        add_point(law, 0.005 * k, 1e-3 * gyro.bias_hz * (1.0 - gyro.bias_chi * 2.5e-5 * k * k));
-    return law;
-}
-
-Series counted_bias(const config::Config& config) {
-    constexpr int ticks = 40;
-    // At rest every tick would be rounded alike: 0.382 counts of rotation in a tick spread the rounding evenly.
-    const double rate_arcsec_s = 0.381966 * config.gyro.scale_arcsec / config.gyro.tick_s;
-    Series seen{.name = "counted on the twin", .mark = Mark::points};
-    for (int k = -4; k <= 4; ++k) {
-        HeldGyro gyro{config, 0.05 * k, rate_arcsec_s};
-        twin::TwinHalf half = gyro.advance();
-        double counts = 0.0;
-        for (int i = 0; i < 2 * ticks; ++i) {
-            const core::SensorFrame before = half.sensor;
-            half = gyro.advance();
-            counts += half.sensor.bias_sign * counts_between(before, half.sensor);
-        }
-        add_point(seen, half.truth.detuning_end_lambda, 1e-3 * std::abs(counts) / (ticks * config.gyro.tick_s));
-    }
-    return seen;
-}
-
 }  // namespace
 
 PaperItem paper_figure_1(const PaperTask& task) {
     const config::Config& c = task.config;
-    PaperItem item =
-        item_of("figure 1", {}, {},
-                {beat_figure(c),
-                 worded({.id = "figure-1-light", .series = {light_of(c, 0.05), light_of(c, 0.0), light_of(c, -0.05)}}),
-                 worded({.id = "figure-1-frequency", .series = {law_of_bias(c.gyro), counted_bias(c)}})});
+    PaperItem item = item_of(
+        "figure 1", {}, {},
+        {beat_figure(c),
+         worded({.id = "figure-1-light", .series = {light_of(c, 0.05), light_of(c, 0.0), light_of(c, -0.05)}})});
     item.section.diagrams = {report::diagram_of(figure_1_svg)};
     return item;
 }

@@ -50,30 +50,16 @@ Figure oscillation_figure(double tick_s) {
 constexpr double axis_end = 0.4;
 
 // Replaced time times frequency, of three ticks.
-Axis product_axis(const BridgePoints& points, Region region, std::vector<double> shown = evenly(0.0, axis_end, 161)) {
+Axis product_axis(const BridgePoints& points, Region region) {
     const double tick_s = points.tick_s;
     const double time_s = design::figure_time_s(paper_gap_ticks, tick_s);
     return {.case_at =
                 [=](double product) {
                     return BridgeCase{.frequency_hz = product / time_s, .tick_s = tick_s, .region = region};
                 },
-            .shown = std::move(shown),
+            .shown = evenly(0.0, axis_end, 161),
             .results = points.by_frequency,
             .measured = each(points.by_frequency, [=](const SubstitutionPoint& p) { return p.frequency_hz * time_s; })};
-}
-
-Axis length_axis(const BridgePoints& points) {
-    const double tick_s = points.tick_s;
-    std::vector<double> lengths = each(points.by_length, [](const SubstitutionPoint& p) { return p.n; });
-    return {.case_at =
-                [=](double n) {
-                    return BridgeCase{.n = static_cast<int>(std::lround(n)),
-                                      .frequency_hz = paper_frequency_hz(tick_s),
-                                      .tick_s = tick_s};
-                },
-            .shown = lengths,
-            .results = points.by_length,
-            .measured = lengths};
 }
 
 // How many standard errors the point farthest from theory is away.
@@ -90,24 +76,12 @@ double farthest(const std::vector<SubstitutionResult>& results) {
 PaperItem figure_8a(const BridgePoints& points) {
     const Axis axis = product_axis(points, Region::crossing);
     const BridgeCase at = axis.case_at(0.2);
-    const Axis ends = product_axis(points, Region::crossing, {0.0, axis_end});
     return item_of("figure 8a",
                    {2 * points.by_frequency.size(), farthest(points.by_frequency),
                     series_error_as_printed_arcsec(at, 2), series_error_arcsec(at, 2)},
                    {},
                    {worded({.id = "figure-8a", .series = drawn(axis, corrected(Region::crossing))}),
-                    worded({.id = "figure-8a-twin", .series = drawn(ends, twin_at_crossing())},
-                           {axis.results.front().interpolation[0].switches}),
                     worded({.id = "figure-8a-delivered", .series = drawn(axis, delivered())})});
-}
-
-Figure laws_figure(const BridgePoints& points) {
-    const Axis axis = product_axis(points, Region::extremum, log_spaced(0.02, axis_end, 121));
-    Figure figure = worded({.id = "figure-8b-laws", .series = drawn(axis, leading()), .log_x = true, .log_y = true});
-    for (report::Series& s : figure.series)
-        for (std::size_t i = 0; i < s.y_error.size(); ++i)
-            if (!(s.y[i] > 3.0 * s.y_error[i])) s.y[i] = std::nan("");
-    return figure;
 }
 
 PaperItem figure_8b(const BridgePoints& points) {
@@ -121,18 +95,15 @@ PaperItem figure_8b(const BridgePoints& points) {
                                             paper_amplitude_arcsec_s, paper_switch_error_arcsec);
     };
     const double time_s = design::figure_time_s(paper_gap_ticks, points.tick_s);
-    return item_of(
-        "figure 8b",
-        {exact(0.1, 0), exact(0.1, 2), exact(0.2, 0), exact(0.2, 2), series(0.2, 0), series(0.2, 2),
-         // does not:
-         exact(0.4, 2), exact(0.4, 0), series(0.4, 2), series(0.4, 0),
-         // reach:
-         highest_hz(0), highest_hz(2), highest_hz(0) * time_s, highest_hz(2) * time_s},
-        {},
-        {worded({.id = "figure-8b", .series = drawn(axis, corrected(Region::extremum))}), laws_figure(points),
-         worded({.id = "figure-8b-length", .series = drawn(length_axis(points), leading())},
-                {paper_frequency_hz(points.tick_s)}),
-         worded({.id = "figure-8b-delivered", .series = drawn(axis, delivered())})});
+    return item_of("figure 8b",
+                   {exact(0.1, 0), exact(0.1, 2), exact(0.2, 0), exact(0.2, 2), series(0.2, 0), series(0.2, 2),
+                    // does not:
+                    exact(0.4, 2), exact(0.4, 0), series(0.4, 2), series(0.4, 0),
+                    // reach:
+                    highest_hz(0), highest_hz(2), highest_hz(0) * time_s, highest_hz(2) * time_s},
+                   {},
+                   {worded({.id = "figure-8b", .series = drawn(axis, corrected(Region::extremum))}),
+                    worded({.id = "figure-8b-delivered", .series = drawn(axis, delivered())})});
 }
 
 // One panel: a number of ticks and a region.

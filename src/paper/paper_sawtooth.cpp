@@ -142,13 +142,6 @@ report::Figure sawtooth_figure(const PaperTask& task, const study::RunResult& ru
     return figure;
 }
 
-report::Figure one_mode_figure(const study::RunResult& run) {
-    report::Figure figure = worded({.id = "figure-3-one-mode"});
-    if (const auto* v = run.variant("one_mode")) figure.series.push_back(study::curve_of(*v, "one mode"));
-    if (const auto* v = run.variant("configured")) figure.series.push_back(study::curve_of(*v, "switched"));
-    return figure;
-}
-
 // What the sawtooth of the run has to say, where there is one.
 void add_sawtooth(const PaperTask& task, const study::RunResult& run, report::Section& section) {
     const auto* switched = run.variant("configured");
@@ -169,7 +162,7 @@ void add_sawtooth(const PaperTask& task, const study::RunResult& run, report::Se
 }  // namespace
 
 PaperItem paper_figure_3(const PaperTask& task, const study::RunResult& run) {
-    PaperItem item = item_of("figure 3", {}, {}, {sawtooth_figure(task, run), one_mode_figure(run)});
+    PaperItem item = item_of("figure 3", {}, {}, {sawtooth_figure(task, run)});
     add_sawtooth(task, run, item.section);
     return item;
 }

@@ -13,7 +13,6 @@ namespace zlg::paper {
 namespace {
 
 using namespace design;
-using report::Series;
 
 using Correction = TickDrifts (*)(const design::RelockModel&);
 using Fits = std::vector<RelockFit>;
@@ -105,37 +104,6 @@ report::Table model_table(const Fits& fits, const char* equation, Correction cor
     return table_of("table.loops", std::move(rows), {equation});
 }
 
-template <class Drifts>
-Series ticks_series(std::string name, const Drifts& drift, report::Mark mark) {
-    Series s{.name = std::move(name), .y = {drift.begin(), drift.end()}, .mark = mark};
-    for (std::size_t i = 0; i < drift.size(); ++i) s.x.push_back(static_cast<double>(i + 1));
-    return s;
-}
-
-report::Figure decay_figure(const Fits& fits, const study::RunResult& run) {
-    report::Figure figure =
-        worded({.id = "table-1-decay", .series = {ticks_series("measured", measured_arcsec_s, report::Mark::points)}});
-    for (const RelockFit& fit : fits)
-        figure.series.push_back(ticks_series(std::string{fit.name}, fit.drift_arcsec_s, report::Mark::line));
-    figure.series.push_back(ticks_series("twin", twin_drift(run), report::Mark::points));
-    return figure;
-}
-
-report::Figure residual_figure(const RelockFit& fit) {
-    TickDrifts by_frequency = left_by(design::corrected_by_frequency_arcsec_s, fit).residual_arcsec_s;
-    by_frequency[0] = fit.drift_arcsec_s[0];  // as the paper has it
-    const TickDrifts by_detuning = left_by(design::corrected_by_detuning_arcsec_s, fit).residual_arcsec_s;
-    const auto printed = [](const TickDrifts& computed) {
-        return summarise(measured_arcsec_s, computed).residual_arcsec_s;
-    };
-    using enum report::Mark;
-    return worded({.id = "table-2-left",
-                   .series = {ticks_series("table 1, by frequency", printed(design::table1_computed_arcsec_s), points),
-                              ticks_series("table 2, by detuning", printed(design::table2_computed_arcsec_s), points),
-                              ticks_series("(11) on the fitted loop", by_frequency, line),
-                              ticks_series("(13) on the fitted loop", by_detuning, line)}});
-}
-
 // --- the text --------------------------------------------------------------------------------------------------------
 
 std::string list_of(const Fits& fits) {
@@ -187,14 +155,14 @@ PaperItem paper_table_1(const PaperTask&, const study::RunResult& run) {
     const Fits fits = fitted_loops();
     return item_of("table 1", numbers_of_table_1(fits, run),
                    {printed_table(printed_1, run), model_table(fits, "(11)", design::corrected_by_frequency_arcsec_s)},
-                   {decay_figure(fits, run)});
+                   {});
 }
 
 PaperItem paper_table_2(const PaperTask&, const study::RunResult& run) {
     const Fits fits = fitted_loops();
     return item_of("table 2", numbers_of_table_2(fits[slew_tail], run),
                    {printed_table(printed_2, run), model_table(fits, "(13)", design::corrected_by_detuning_arcsec_s)},
-                   {residual_figure(fits[slew_tail])});
+                   {});
 }
 
 }  // namespace zlg::paper

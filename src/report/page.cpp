@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "figure_values.hpp"
+#include "axes_json.hpp"
 #include "page_files.hpp"
 #include "text.hpp"
 
@@ -115,8 +115,6 @@ std::string attributes_of(const Diagram&) { return ""; }
 std::string attributes_of(const Figure& figure) {
     return fmt::format(" data-figure=\"{}\"", escaped(axes_json(figure)));
 }
-std::string beside(const Diagram&) { return ""; }
-std::string beside(const Figure& figure) { return values_table(figure); }
 
 // A figure or a diagram.
 template <class Drawing>
@@ -128,10 +126,9 @@ std::string drawing_of(Drawing drawing, Counters& counters) {
         counters.ids.insert(drawing.id);
     }
     const std::string number = counters.shown ? fmt::format("Figure {}. ", counters.n_figures) : "";
-    return fmt::format("<figure class=\"drawing\"{}>\n{}<figcaption><b>{}{}</b> {}</figcaption>\n{}</figure>\n",
+    return fmt::format("<figure class=\"drawing\"{}>\n{}<figcaption><b>{}{}</b> {}</figcaption>\n</figure>\n",
                        attributes_of(drawing), svg(drawing), number,
-                       shown(drawing.title.empty() ? "" : drawing.title + "."), shown(drawing.caption),
-                       beside(drawing));
+                       shown(drawing.title.empty() ? "" : drawing.title + "."), shown(drawing.caption));
 }
 
 // Line by line, for a line's end is no space here.

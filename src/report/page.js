@@ -1,4 +1,4 @@
-// Values, zoom, series on and off, values as CSV. What is drawn is the data: places are read from the SVG, axes from data-figure.
+// Values, zoom, series on and off. What is drawn is the data: places are read from the SVG, axes from data-figure.
 (() => {
 const { abs, floor, log10, max, min } = Math;
 const all = (e, what) => [...e.querySelectorAll(what)], path = e => e.getAttribute("d");
@@ -195,14 +195,6 @@ all(document, "figure[data-figure]").forEach(figure => {
   figure.classList.add("live");
 });
 
-all(document, "details.values").forEach(details => {
-  const button = written("button", "copy as CSV", details), quoted = e => `"${e.textContent.replace(/"/g, '""').replace(/−/g, "-")}"`;
-  button.onclick = async () => {
-    const csv = all(details, "tr").map(row => [...row.children].map(quoted).join() + "\n").join("");
-    try { await navigator.clipboard.writeText(csv); button.textContent = "copied"; }
-    catch { written("pre", csv, details); }
-  };
-});
 const fit = () => all(document, ".scroll").forEach(e => e.classList.toggle("fits", e.scrollWidth <= e.clientWidth));
 window.onresize = fit;
 fit();

@@ -4,8 +4,6 @@
 
 #include <zlg/report/figure.hpp>
 
-#include "scale.hpp"
-
 namespace zlg::report {
 namespace {
 
@@ -60,28 +58,6 @@ Series thin(const Series& series, int n_points) {
     }
     if (room > 1) kept.push_back(n - 1);
     return picked(series, kept);
-}
-
-Series histogram(std::string name, const std::vector<double>& values, int n_bins) {
-    Series out{std::move(name), {}, {}, {}, Mark::bars, false};
-    Extent extent;
-    for (const double value : values) extent.add(value);
-    if (extent.empty()) return out;
-    // Halves, so that the range of the largest doubles does not overflow.
-    const double half_range = 0.5 * extent.hi - 0.5 * extent.lo;
-    const std::size_t n = half_range > 0.0 ? static_cast<std::size_t>(std::max(n_bins, 1)) : 1;
-    for (std::size_t k = 0; k < n; ++k) {
-        const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
-        out.x.push_back(extent.lo * (1.0 - share) + extent.hi * share);
-    }
-    out.y.assign(n, 0.0);
-    for (const double value : values) {
-        if (!std::isfinite(value)) continue;
-        const double share = half_range > 0.0 ? (0.5 * value - 0.5 * extent.lo) / half_range : 0.0;
-        const auto bin = static_cast<std::size_t>(share * static_cast<double>(n));
-        out.y[std::min(bin, n - 1)] += 1.0;
-    }
-    return out;
 }
 
 }  // namespace zlg::report

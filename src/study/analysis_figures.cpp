@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 
 #include <zlg/report/number_text.hpp>
@@ -69,19 +68,6 @@ Figure spectrum_figure(const View& v) {
             fitted, frequency,
             2.0 * v.shown(1.0) * v.shown(1.0) * noise::rate_spectrum(v.axis.fit->terms, frequency, v.axis.rate_hz));
     f.series.push_back(std::move(fitted));
-    return f;
-}
-
-Figure mode_figure(const View& v) {
-    Figure f = report::blank_figure(
-        v.id("modes"), fmt::format("Deviation by mode of {}", v.axis.name),
-        "Each mode by itself, up to averaging times that fit between two switches; and both together "
-        "with the magnetic drift, and with it the switching, taken out.",
-        "averaging time, s", fmt::format("oadev, {}", v.unit()));
-    f.log_x = f.log_y = true;
-    constexpr std::array<const char*, 3> names{"mode +1", "mode -1", "both, magnetic part taken out"};
-    for (std::size_t k = 0; k < v.axis.mode_curves.size() && k < names.size(); ++k)
-        if (!v.axis.mode_curves[k].points.empty()) f.series.push_back(curve_series(v, v.axis.mode_curves[k], names[k]));
     return f;
 }
 

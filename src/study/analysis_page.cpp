@@ -163,7 +163,6 @@ report::Section mode_section(const View& v) {
     if (was_moved(v.axis))
         s.paragraphs.push_back("The gyro was moved: the errors per switch hold the motion in the gaps too.");
     s.tables = {mode_table(v)};
-    s.figures = {mode_figure(v)};
     if (!v.axis.modes->points.empty()) s.figures.push_back(split_figure(v));
     if (!v.axis.modes->switches.empty()) s.figures.push_back(switch_figure(v));
     return s;

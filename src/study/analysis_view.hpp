@@ -44,7 +44,6 @@ struct View {
 [[nodiscard]] std::string analysis_verdict(const config::Analysis& config, const AnalysisResult& result);
 
 // Of a switched gyro.
-[[nodiscard]] report::Figure mode_figure(const View& v);
 [[nodiscard]] report::Figure split_figure(const View& v);
 [[nodiscard]] report::Figure switch_figure(const View& v);
 

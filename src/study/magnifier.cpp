@@ -12,8 +12,7 @@ MagnifiedTick shown_tick(std::int64_t tick, double scale_arcsec, const rig::Loop
             .read_arcsec = scale_arcsec * counts,
             .true_arcsec = first.truth.dtheta_arcsec + second.truth.dtheta_arcsec,
             .detuning_lambda = {first.record.detuning_lambda, second.record.detuning_lambda},
-            .true_detuning_lambda = {first.truth.detuning_end_lambda, second.truth.detuning_end_lambda},
-            .piezo_v = {first.record.piezo_v, second.record.piezo_v}};
+            .true_detuning_lambda = {first.truth.detuning_end_lambda, second.truth.detuning_end_lambda}};
 }
 
 void Magnifier::take(const MagnifiedTick& tick, const std::deque<SwitchWindow>& windows) {

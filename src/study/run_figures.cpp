@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <zlg/deviations/averaging.hpp>
-#include <zlg/deviations/deviation.hpp>
 #include <zlg/report/number_text.hpp>
 #include <zlg/study/run_page.hpp>
 
@@ -46,21 +44,6 @@ report::Band gap_band(const RunResult& result) {
         found = true;
     }
     return band;
-}
-
-// Angles at equal intervals are a phase.
-deviations::DeviationCurve deviation_of(const Curve& curve) {
-    if (curve.t_s.size() < 4) return {};
-    const double rate_hz = static_cast<double>(curve.t_s.size() - 1) / (curve.t_s.back() - curve.t_s.front());
-    try {
-        const deviations::AngleRecord record{
-            deviations::Series{{deviations::DataKind::phase, deviations::Unit::arcsec, rate_hz}, curve.error_arcsec}};
-        const auto factors = deviations::octave_factors(
-            deviations::largest_factor(deviations::DeviationKind::oadev, record.n_intervals()));
-        return deviations::deviation(record, deviations::DeviationKind::oadev, factors, {.confidence = 0.6827});
-    } catch (const deviations::SeriesError&) {
-        return {};  // an error that never changes has none
-    }
 }
 
 }  // namespace
@@ -116,32 +99,6 @@ Figure sum_figure(const RunResult& result) {
     return f;
 }
 
-Figure error_deviation_figure(const RunResult& result) {
-    Figure f =
-        blank_figure("error-deviation", "Allan deviation of the error",
-                     "Overlapping Allan deviation of the rate's error, the derivative of the angle error above: what "
-                     "the output adds to the true rate when averaged over a time. Bars: one standard deviation.",
-                     "averaging time, s", "oadev of the error, deg/h");
-    if (!result.switches.empty())
-        f.caption += " A sawtooth is a hump at the interval between switches, and falls off beyond it.";
-    f.log_x = f.log_y = true;
-    for (const auto& [name, words] : {std::pair{"one_mode", "never switched"},
-                                      {"switching", "switched, as read"},
-                                      {"configured", "as configured"}}) {
-        const VariantResult* v = result.variant(name);
-        if (!v || (result.switches.empty() && v->name == "switching")) continue;
-        Series s = blank_series(words, Mark::points);
-        for (const auto& p : deviation_of(v->curve).points) {
-            if (!(p.deviation > 0.0)) continue;
-            add_point(s, p.tau_s, p.deviation);
-            s.y_error.push_back(p.high - p.deviation);
-            s.y_error_down.push_back(p.deviation - p.low);
-        }
-        f.series.push_back(std::move(s));
-    }
-    return f;
-}
-
 Figure magnified_figure(const RunResult& result) {
     const bool is_repaired = result.variants.back().unrepaired < static_cast<std::int64_t>(result.switches.size());
     Figure f = blank_figure(
@@ -190,46 +147,6 @@ Figure detuning_figure(const RunResult& result) {
     }
     f.series = {std::move(truth), std::move(seen)};
     f.bands.push_back(gap_band(result));
-    return f;
-}
-
-Figure piezo_figure(const RunResult& result) {
-    Figure f = blank_figure(
-        "piezo", "Piezo voltage through the switch",
-        "The processor steps the high voltage by the half-wave voltage it has learnt from earlier switches; "
-        "the amplifier follows at its slew rate; the loop does the rest.",
-        "time, ms", "piezo voltage, V");
-    const Clock clock{result};
-    Series volts = blank_series("piezo, by ADC");
-    for (const MagnifiedTick& t : result.magnified)
-        for (unsigned h = 0; h < 2; ++h) add_point(volts, clock.ms(t.tick, h + 1.0), t.piezo_v[h]);
-    f.series = {std::move(volts)};
-    f.bands.push_back(gap_band(result));
-    return f;
-}
-
-Figure error_size_figure(const RunResult& result) {
-    Figure f =
-        blank_figure("switch-errors", "Size of the errors",
-                     "Share of the switches whose error is at most so large, whatever its sign: the further left, the "
-                     "better.",
-                     "error of a switch at most, arcsec", "share of the switches");
-    f.log_x = true;
-    for (const auto& [name, words] : {std::pair{"switching", "without correction"},
-                                      {"relock_frequency", "relock_frequency"},
-                                      {"bridge_constant", "bridge_constant"},
-                                      {"configured", "as configured"}}) {
-        const VariantResult* v = result.variant(name);
-        if (!v) continue;
-        std::vector<double> sizes;
-        for (const SwitchError& e : v->switches)
-            if (!e.unrepaired && e.error_arcsec != 0.0) sizes.push_back(std::abs(e.error_arcsec));
-        std::ranges::sort(sizes);
-        Series s = blank_series(words, Mark::steps);
-        for (std::size_t k = 0; k < sizes.size(); ++k)
-            add_point(s, sizes[k], static_cast<double>(k + 1) / static_cast<double>(sizes.size()));
-        f.series.push_back(thin(s, drawn_points));
-    }
     return f;
 }
 

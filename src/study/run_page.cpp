@@ -77,7 +77,7 @@ report::Section switch_section(const RunResult& result) {
         .paragraphs = {"Switching takes the perimeter from one longitudinal mode to the next, of opposite "
                        "circular polarisation. On the way there is no light in both directions and the gyro "
                        "is blind; just after it, the bias is not yet what it should be and the gyro lies."},
-        .figures = {magnified_figure(result), detuning_figure(result), piezo_figure(result)}};
+        .figures = {magnified_figure(result), detuning_figure(result)}};
     if (!result.relock_false_drift_deg_h.empty()) section.tables.push_back(relock_table(result));
     return section;
 }
@@ -149,7 +149,6 @@ report::Page run_page(const config::Config& config, const RunResult& result) {
                              .figures = {sawtooth_figure(config, result)}});
     auto& figures = page.sections.back().figures;
     if (!result.switches.empty()) figures.push_back(sum_figure(result));
-    figures.push_back(error_deviation_figure(result));
     if (!faults_of(config).empty()) page.sections.push_back(fault_section(config, result));
     if (!result.magnified.empty()) page.sections.push_back(switch_section(result));
     if (!result.switches.empty())
@@ -158,7 +157,7 @@ report::Page run_page(const config::Config& config, const RunResult& result) {
              .paragraphs =
                  {"What is left after compensation, switch by switch. The file of switches lists each of them with "
                   "its claimed and its true error."},
-             .figures = {error_size_figure(result), switch_error_figure(result)}});
+             .figures = {switch_error_figure(result)}});
     page.sections.push_back(how_made("run", config));
     page.sections.back().paragraphs.push_back(
         fmt::format("Fingerprint of the run: {}. Made again by this version, on any machine, it has the same.",

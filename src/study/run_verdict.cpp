@@ -53,11 +53,13 @@ std::string with_switches(const RunResult& result) {
 double duration_s(const RunResult& result) { return static_cast<double>(result.ticks) * result.tick_s; }
 
 std::vector<std::string> faults_of(const config::Config& config) {
+    constexpr std::size_t most = 4;
     const config::Faults& f = config.faults;
     std::vector<std::string> out;
-    for (std::size_t i = 0; i < std::min(f.kind.size(), f.at_s.size()); ++i)
-        out.push_back(fmt::format("{} from {} s to {} s", twin::facts(f.kind[i]).name, short_number(f.at_s[i]),
-                                  short_number(f.at_s[i] + (i < f.duration_s.size() ? f.duration_s[i] : 0.0))));
+    for (std::size_t i = 0; i < std::min(f.kind.size(), most); ++i)
+        out.push_back(
+            fmt::format("{} at {:g} s for {:g} s", twin::facts(f.kind[i]).name, f.at_s.at(i), f.duration_s.at(i)));
+    if (f.kind.size() > most) out.push_back(fmt::format("{} more", f.kind.size() - most));
     if (f.random_per_hour > 0.0)
         out.push_back(fmt::format("faults at random, {} an hour", short_number(f.random_per_hour)));
     return out;

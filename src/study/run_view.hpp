@@ -12,15 +12,12 @@ namespace zlg::study {
 // Of the whole run.
 [[nodiscard]] report::Figure sawtooth_figure(const config::Config& config, const RunResult& result);
 [[nodiscard]] report::Figure sum_figure(const RunResult& result);
-[[nodiscard]] report::Figure error_deviation_figure(const RunResult& result);
 
 // Of one switch.
 [[nodiscard]] report::Figure magnified_figure(const RunResult& result);
 [[nodiscard]] report::Figure detuning_figure(const RunResult& result);
-[[nodiscard]] report::Figure piezo_figure(const RunResult& result);
 
 // Of all switches.
-[[nodiscard]] report::Figure error_size_figure(const RunResult& result);
 [[nodiscard]] report::Figure switch_error_figure(const RunResult& result);
 
 [[nodiscard]] double duration_s(const RunResult& result);
@@ -28,7 +25,7 @@ namespace zlg::study {
 // The result in one sentence.
 [[nodiscard]] std::string run_verdict(const config::Config& config, const RunResult& result);
 
-// "laser_off from 20 s to 25 s" and so on; empty where the configuration has no fault.
+// "laser_off at 20 s for 5 s" and so on, four of them and how many more; empty where the configuration has no fault.
 [[nodiscard]] std::vector<std::string> faults_of(const config::Config& config);
 
 }  // namespace zlg::study

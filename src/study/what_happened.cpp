@@ -32,20 +32,6 @@ std::string length_and_switches(const config::Config& config, const RunResult& r
     return text;
 }
 
-std::string fault(const config::Faults& faults, std::size_t k) {
-    return fmt::format("{} at {:g} s for {:g} s", twin::facts(faults.kind[k]).name, faults.at_s[k],
-                       faults.duration_s[k]);
-}
-
-std::string faults_in_words(const config::Faults& faults) {
-    constexpr std::size_t shown = 4;
-    std::vector<std::string> parts;
-    for (std::size_t k = 0; k < std::min(shown, faults.kind.size()); ++k) parts.push_back(fault(faults, k));
-    if (faults.kind.size() > shown) parts.push_back(fmt::format("{} more", faults.kind.size() - shown));
-    if (faults.random_per_hour > 0.0) parts.push_back(fmt::format("random ones, {:g} an hour", faults.random_per_hour));
-    return fmt::format("{}", fmt::join(parts, ", "));
-}
-
 // `fringe_lost` is in the sentence of the whole counts.
 std::string raised_bits(std::uint32_t bits) {
     std::vector<const char*> names;
@@ -55,14 +41,14 @@ std::string raised_bits(std::uint32_t bits) {
 }
 
 std::string what_the_core_saw(const config::Config& config, const RunResult& result) {
-    const bool has_faults = !config.faults.kind.empty() || config.faults.random_per_hour > 0.0;
+    const std::vector<std::string> faults = faults_of(config);
     const std::string raised = raised_bits(result.health_raised);
-    if (!has_faults && raised.empty() && result.invalid_ticks == 0) return {};
+    if (faults.empty() && raised.empty() && result.invalid_ticks == 0) return {};
     const std::string invalid =
         fmt::format("{} of {} ticks outside the switches are invalid and were bridged or flagged", result.invalid_ticks,
                     result.ticks);
     return fmt::format("{}the core raised {}; {}",
-                       has_faults ? fmt::format("faults: {}; ", faults_in_words(config.faults)) : "",
+                       faults.empty() ? "" : fmt::format("faults: {}; ", fmt::join(faults, ", ")),
                        raised.empty() ? "no health bit of trouble" : raised,
                        result.invalid_ticks > 0 ? invalid : "no tick outside the switches is invalid");
 }

@@ -41,7 +41,7 @@ struct Limit {
 
 [[nodiscard]] Limit limit_of(const Metric& m);
 
-// Correlations and responses.
+// Correlations.
 [[nodiscard]] report::Section dependence(const Description& description, const Columns& columns);
 
 }  // namespace zlg::sweep

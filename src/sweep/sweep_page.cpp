@@ -74,15 +74,6 @@ Figure yield_figure(const Metric& metric, const std::vector<double>& values, std
     return f;
 }
 
-Figure distribution_figure(const Metric& metric, const std::vector<double>& values, std::size_t k) {
-    Figure f = blank_figure(fmt::format("distribution-{}", k), fmt::format("Distribution of {}", metric.name),
-                            fmt::format("Good gyros in equal bins. Limits: {}.", limits(metric)),
-                            with_unit(metric.name, unit_of(metric.name)), "gyros");
-    const int n_bins = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(values.size()))), 5, 60);
-    f.series = {histogram("gyros", values, n_bins)};
-    return f;
-}
-
 Section worst_section(const Gyros& gyros, const Rows& rows) {
     Section s{.heading = "Gyros to look at",
               .paragraphs = {"Those that failed, then those farthest from the middle of the first number. Each line "
@@ -132,9 +123,7 @@ report::Page sweep_page(const Gyros& gyros, const Rows& rows) {
     report::Page page = sweep_summary(gyros, rows);
     for (std::size_t k = 0; k < d.metrics.size() && summary.failed < summary.gyros; ++k) {
         if (!varies(columns.metrics[k])) continue;
-        std::vector<Figure>& figures = page.sections.front().figures;
-        figures.push_back(distribution_figure(d.metrics[k], columns.metrics[k], k));
-        figures.push_back(yield_figure(d.metrics[k], columns.metrics[k], summary.gyros, k));
+        page.sections.front().figures.push_back(yield_figure(d.metrics[k], columns.metrics[k], summary.gyros, k));
     }
     if (!columns.parameters.empty() && summary.failed < summary.gyros)
         page.sections.insert(page.sections.begin() + 1, dependence(d, columns));

@@ -60,7 +60,8 @@ TEST(Paper, every_item_shows_something_and_says_what_agrees) {
     for (const auto& item : paper().items) {
         EXPECT_FALSE(item.section.heading.empty()) << item.number;
         EXPECT_FALSE(item.section.paragraphs.empty()) << item.number;
-        EXPECT_GT(item.section.figures.size() + item.section.diagrams.size(), 0u) << item.number;
+        EXPECT_GT(item.section.figures.size() + item.section.diagrams.size() + item.section.tables.size(), 0u)
+            << item.number;
     }
 }
 

@@ -81,7 +81,7 @@ TEST(Html, every_colour_of_a_drawing_has_another_in_the_dark) {
     Figure& f = p.sections[0].figures[0];
     for (int i = 0; i < 9; ++i) {
         f.series.push_back(f.series[0]);
-        f.series.back().mark = i % 2 == 0 ? zlg::report::Mark::points : zlg::report::Mark::bars;
+        f.series.back().mark = i % 2 == 0 ? zlg::report::Mark::points : zlg::report::Mark::line;
         f.series.back().y = {-1.0, 1.0};
     }
     f.bands = {{0.2, 0.4, "gap"}};
@@ -123,35 +123,10 @@ TEST(Html, columns_of_numbers_are_told_from_columns_of_text) {
     EXPECT_EQ(cells.at(4).text, "2 \u00B1 1");
 }
 
-TEST(Html, the_values_of_a_figure_stand_beside_it_thinned_to_two_hundred_rows) {
-    Page p = page(1);
-    Figure& f = p.sections[0].figures[0];
-    f.series[0].y_error = {0.25, 0.5};
-    Series longer;
-    longer.name = "longer";
-    for (int i = 0; i < 5000; ++i) {
-        longer.x.push_back(i);
-        longer.y.push_back(i % 7);
-    }
-    f.series.push_back(longer);
-    const auto body = page_body(html(p));
-    std::size_t n_rows = 0;
-    for (const auto& e : body)
-        if (e.name == "tr")
-            for (const std::size_t i : e.above) n_rows += body[i].name == "details" ? 1U : 0U;
-    EXPECT_GT(n_rows, 90U);
-    EXPECT_LE(n_rows, 1U + 200U);
-    const auto cells = markup::all(body, "td", "scroll");
-    std::vector<std::string> first;
-    for (std::size_t i = cells.size() - 1; i-- > 0;)
-        if (cells[i].text == "line") first = {cells[i + 1].text, cells[i + 2].text, cells[i + 3].text};
-    EXPECT_EQ(first, (std::vector<std::string>{"0", "2", "0.25"}));
-}
-
 TEST(Html, the_script_is_told_the_axes_as_they_are_drawn) {
     Page p = page(1);
     Figure& f = p.sections[0].figures[0];
-    f.series[0] = Series{.name = "a \"b\"", .x = {1.0, 100.0}, .y = {0.0, 1.0}, .mark = zlg::report::Mark::bars};
+    f.series[0] = Series{.name = "a \"b\"", .x = {1.0, 100.0}, .y = {0.0, 1.0}};
     f.series.push_back({.name = "none"});
     f.log_y = false;
     f.x_label = "x, m";
@@ -159,7 +134,7 @@ TEST(Html, the_script_is_told_the_axes_as_they_are_drawn) {
     for (const auto& e : page_body(html(p)))
         if (e.attributes.count("data-figure") != 0)
             EXPECT_EQ(e.attributes.at("data-figure"),
-                      "{\"x\":[-56.42,157.42,0,\"x, m\"],\"y\":[0,1.04,0,\"y\"],\"series\":[{\"name\":\"a "
+                      "{\"x\":[-2.96,103.96,0,\"x, m\"],\"y\":[-0.04,1.04,0,\"y\"],\"series\":[{\"name\":\"a "
                       "\\\"b\\\"\","
                       "\"drawn\":true},{\"name\":\"none\",\"drawn\":false}]}");
 }

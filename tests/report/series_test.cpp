@@ -5,45 +5,9 @@
 using example::infinity;
 using example::not_a_number;
 using example::series;
-using zlg::report::histogram;
 using zlg::report::Mark;
 using zlg::report::Series;
 using zlg::report::thin;
-
-TEST(Histogram, counts_every_finite_value_once) {
-    std::vector<double> values{not_a_number, infinity, -infinity};
-    for (int i = 0; i < 1000; ++i) values.push_back(std::sin(0.1 * i * i));
-    for (const int n_bins : {1, 7, 64}) {
-        const Series h = histogram("h", values, n_bins);
-        EXPECT_EQ(h.x.size(), static_cast<std::size_t>(n_bins));
-        EXPECT_EQ(std::accumulate(h.y.begin(), h.y.end(), 0.0), 1000.0);
-        EXPECT_EQ(h.mark, Mark::bars);
-    }
-}
-
-TEST(Histogram, bins_are_equal_and_a_value_on_a_border_counts_above_it) {
-    const Series h = histogram("h", {0, 1, 2, 3, 4, 4, 8}, 4);
-    EXPECT_EQ(h.x, (std::vector<double>{1, 3, 5, 7}));
-    EXPECT_EQ(h.y, (std::vector<double>{2, 2, 2, 1}));
-}
-
-TEST(Histogram, equal_values_fall_into_one_bin) {
-    const Series h = histogram("h", std::vector<double>(50, 2.5), 10);
-    EXPECT_EQ(h.x, std::vector<double>{2.5});
-    EXPECT_EQ(h.y, std::vector<double>{50.0});
-}
-
-TEST(Histogram, fewer_than_one_bin_is_one_bin) {
-    for (const int n_bins : {0, -3}) EXPECT_EQ(histogram("h", {1.0, 2.0}, n_bins).y, std::vector<double>{2.0});
-}
-
-TEST(Histogram, survives_no_value_and_the_largest_doubles) {
-    EXPECT_TRUE(histogram("h", {not_a_number}, 5).x.empty());
-    const double largest = std::numeric_limits<double>::max();
-    const Series h = histogram("h", {-largest, largest}, 2);
-    EXPECT_EQ(h.y, (std::vector<double>{1.0, 1.0}));
-    EXPECT_NEAR(h.x[0] / largest, -0.5, 1e-12);
-}
 
 TEST(Thin, keeps_ends_extremes_and_order) {
     Series data = series({}, {});

@@ -43,9 +43,6 @@ struct Figure {
 // break lines and are not drawn. Axes follow the data and its errors; bands are cut at the plot area.
 [[nodiscard]] std::string svg(const Figure& figure);
 
-// Counts of the finite `values` in `n_bins` equal bins over their range, as a bar series at the bins' centres.
-[[nodiscard]] Series histogram(std::string name, const std::vector<double>& values, int n_bins);
-
 // Thin a long series to at most `n_points`, keeping its ends and, of each stretch, the extremes and the first gap.
 [[nodiscard]] Series thin(const Series& series, int n_points);
 

@@ -1,6 +1,6 @@
 #pragma once
 // One self-contained HTML page: nothing comes from outside. It can be read and printed without its script, which adds
-// values under the pointer, zoom, series on and off, and values as CSV.
+// values under the pointer, zoom, and series on and off.
 //
 // Texts are plain: the page escapes them and sets numbers as in print, "-1.5e-3" as a minus, a factor and a power of
 // ten.

@@ -31,7 +31,6 @@ struct MagnifiedTick {
     double true_arcsec = 0.0;
     std::array<double, 2> detuning_lambda{};       // measured, mean of each half
     std::array<double, 2> true_detuning_lambda{};  // at the end of each half
-    std::array<double, 2> piezo_v{};
 };
 
 // Follows the records, tick by tick, and keeps the switches: gaps across which the helicity changes.
