@@ -11,6 +11,7 @@
 #include <zlg/logs/angle_log.hpp>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/log_kind.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "log_io.hpp"
 #include "settings_lines.hpp"
@@ -75,6 +76,7 @@ std::string flag_legend() {
 
 std::unique_ptr<LogSink<AngleTable>> create(const std::string& path, double tick_s, Settings settings, bool force,
                                             const AngleWriterOptions& options) {
+    if (text::lower_case(path).ends_with(".mcap")) return create_imu_bag(path, tick_s, force);
     if (options.format_version) (void)checked_format_version(*options.format_version, path);
     if (!find_setting(settings, "flags")) settings.emplace_back("flags", flag_legend());
     if (!find_setting(settings, "tick_s") && !std::isnan(tick_s))

@@ -66,6 +66,8 @@ template <class Table>
 [[nodiscard]] std::unique_ptr<LogSink<AngleTable>> create_angle_hdf5(const std::string& path, bool force,
                                                                      const Settings& settings,
                                                                      const AngleWriterOptions& options);
+// A bag of MCAP with messages of an IMU. errors  FormatError: tick_s is not known; IoError.
+[[nodiscard]] std::unique_ptr<LogSink<AngleTable>> create_imu_bag(const std::string& path, double tick_s, bool force);
 
 // By the content. errors  as the readers; FormatError: a file of another program, of which it says what it is.
 template <class Table>

@@ -1,4 +1,4 @@
-"""MCAP files and ROS 1 bags by hand, from https://mcap.dev/spec and http://wiki.ros.org/Bags/Format/2.0."""
+"""MCAP files and ROS 1 bags by hand, from https://mcap.dev/spec and http://wiki.ros.org/Bags/Format/2.0; and what stands in an MCAP file."""
 
 import struct
 import zlib
@@ -74,3 +74,74 @@ def rosbag(*data, index=b"", index_at=None):
     counts = {"conn_count": bytes(4), "chunk_count": bytes(4)}
     at = len(magic) + len(rosbag_record(fields(op=b"\3", index_pos=bytes(8), **counts), b"")) + len(body)
     return magic + rosbag_record(fields(op=b"\3", index_pos=struct.pack("<Q", at if index_at is None else index_at), **counts), b"") + body + index
+
+
+class Mcap:
+    """Every record of a file, with its checksums, offsets and counts held against one another."""
+
+    def __init__(self, data):
+        assert data.startswith(MAGIC) and data.endswith(MAGIC)
+        self.messages = []  # (channel, time, bytes)
+        self.schemas, self.channels = {}, {}
+        self.chunks, self.chunk_indexes = {}, []
+        self.statistics = None
+        self.data = data
+        self.walk(data, len(MAGIC), len(data) - len(MAGIC))
+
+    def walk(self, data, at, end, chunk=None):
+        while at < end:
+            kind, size = struct.unpack_from("<BQ", data, at)
+            content = data[at + 9:at + 9 + size]
+            assert len(content) == size
+            self.take(kind, content, at, chunk)
+            at += 9 + size
+        assert at == end
+
+    def texts(self, content, n):
+        found = []
+        for _ in range(n):
+            size, = struct.unpack_from("<I", content)
+            found.append(content[4:4 + size])
+            content = content[4 + size:]
+        return found
+
+    def take(self, kind, content, at, chunk):
+        if kind == 3:
+            self.schemas[struct.unpack_from("<H", content)[0]] = [part.decode() for part in self.texts(content[2:], 3)]
+        elif kind == 4:
+            number, schema = struct.unpack_from("<HH", content)
+            self.channels[number] = (schema, *(part.decode() for part in self.texts(content[4:], 2)))
+        elif kind == 5:
+            channel, _, received, sent = struct.unpack_from("<HIQQ", content)
+            assert received == sent
+            self.messages.append((channel, received, content[22:]))
+            self.chunks[chunk].append((received, at))
+        elif kind == 6:
+            first, last, size, crc = struct.unpack_from("<QQQI", content)
+            assert content[28:32] == bytes(4)  # not compressed
+            records = content[40:]
+            assert struct.unpack_from("<Q", content, 32)[0] == size == len(records) and zlib.crc32(records) == crc
+            self.chunks[at] = []
+            self.walk(records, 0, len(records), at)
+            assert (first, last) == (self.chunks[at][0][0], self.chunks[at][-1][0])
+        elif kind == 7:
+            chunk = max(self.chunks)
+            channel, size = struct.unpack_from("<HI", content)
+            assert channel == 1 and size == len(content) - 6
+            assert list(struct.iter_unpack("<QQ", content[6:])) == self.chunks[chunk]
+            self.message_index = (at, len(content) + 9)
+        elif kind == 8:
+            first, last, start, size, n, _, index, index_size = struct.unpack_from("<QQQQIHQQ", content)
+            assert n == 10 and (first, last) == (self.chunks[start][0][0], self.chunks[start][-1][0])
+            assert self.data[start] == 6 and struct.unpack_from("<Q", self.data, start + 1)[0] + 9 == size
+            assert self.data[index] == 7 and struct.unpack_from("<Q", self.data, index + 1)[0] + 9 == index_size
+            self.chunk_indexes.append(start)
+        elif kind == 11:
+            self.statistics = struct.unpack_from("<QHIIIIQQI", content)
+            assert content[-10:] == struct.pack("<HQ", 1, self.statistics[0])
+        elif kind == 15:
+            assert struct.unpack("<I", content)[0] == zlib.crc32(self.data[:at])
+            self.index_at = at + 13
+        elif kind == 2:
+            summary, offsets, crc = struct.unpack("<QQI", content)
+            assert (summary, offsets) == (self.index_at, 0) and crc == zlib.crc32(self.data[summary:at + 9 + 16])

@@ -1,11 +1,12 @@
-"""Bags of ROS: MCAP and ROS 1, from writers that are not ours and by hand."""
+"""Bags of ROS: MCAP and ROS 1, from writers that are not ours and by hand; and the one that `process` writes."""
 
+import csv
 import math
 import random
 import struct
 import unittest
 
-from bag_file import (imu_cdr, imu_ros1, mcap, mcap_channel, mcap_chunk, mcap_message, record, rosbag, rosbag_chunk, rosbag_connection, rosbag_message,
+from bag_file import (Mcap, imu_cdr, imu_ros1, mcap, mcap_channel, mcap_chunk, mcap_message, record, rosbag, rosbag_chunk, rosbag_connection, rosbag_message,
                       text)
 from support import ROOT, AngleLog, run
 from test_import_hostile import Hostile
@@ -232,6 +233,55 @@ class Damaged(Bags):
     def test_many_sensors(self):
         data = b"".join(mcap_message(1, START + k, imu_cdr(START + k, f"{k}", rates(k))) for k in range(300))
         self.assertIn("one sensor too many", self.refused(self.bag(mcap(mcap_channel(1, "/imu"), data)), code=3))
+
+
+class Written(Bags):
+    def test_angles_as_messages(self):
+        raw, log, bag = self.folder / "raw.h5", self.folder / "a.csv", self.folder / "a.mcap"
+        self.succeed("simulate", "--duration", 20, "--set", "switching.interval_s=5", "--out", raw)
+        self.succeed("process", raw, "--out", log)
+        self.succeed("process", raw, "--out", bag)
+        with open(log, encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        made = Mcap(bag.read_bytes())
+        self.assertEqual((made.schemas[1][:2], made.channels), (["sensor_msgs/msg/Imu", "ros2msg"], {1: (1, "/imu", "cdr")}))
+        self.assertEqual((made.statistics[0], made.statistics[5]), (len(rows), len(made.chunks)))
+        self.assertEqual(made.chunk_indexes, sorted(made.chunks))
+        self.assertEqual(len(made.messages), len(rows))
+        for (_, received, data), row in zip(made.messages, rows):
+            self.assertEqual(data[:4], b"\0\1\0\0")
+            sec, nanosec, n = struct.unpack_from("<iII", data, 4)
+            self.assertEqual(data[16:16 + n], b"zlg\0")
+            number = struct.unpack_from("<37d", data, 4 + 16)
+            self.assertEqual((number[:4], number[4], number[28]), ((0.0, 0.0, 0.0, 1.0), -1.0, -1.0))  # nothing of orientation and acceleration
+            self.assertEqual(sec * 10**9 + nanosec, received)
+            self.assertAlmostEqual(received * 1e-9, float(row["t_s"]) - 0.0025, delta=1e-9)
+            self.assertTrue(math.isnan(number[13]) and math.isnan(number[14]))
+            self.assertEqual(number[16:24], (math.inf, 0.0, 0.0, 0.0, math.inf, 0.0, 0.0, 0.0))
+            per_s = 1 / ARCSEC / 0.005
+            self.assertAlmostEqual(number[15], float(row["dtheta_final_arcsec"]) * per_s, delta=1e-15)
+            self.assertAlmostEqual(number[24] / (float(row["sigma_arcsec"]) * per_s) ** 2, 1.0, delta=1e-12)
+        # The axis without rates is not offered, so that nothing is left to ask.
+        back = self.angles(bag)
+        for turn, row in zip(back.dtheta, rows):
+            self.assertAlmostEqual(turn, float(row["dtheta_final_arcsec"]), delta=1e-9)
+
+    def test_what_was_not_measured_is_no_number(self):
+        raw = self.write("raw.csv", b"# gyro.tick_s = 0.005\n# gyro.scale_arcsec = 3.263\nhalf,bias_sign,mode,counts,loop_closed,valid\n" +
+                         b"".join(b"%d,%d,1,%d,1,%d\n" % (k, 1 - k % 2 * 2, 150 * (1 - k % 2 * 2), k not in (0, 1)) for k in range(80)))
+        bag, log = self.folder / "a.mcap", self.folder / "a.csv"
+        self.succeed("process", raw, "--out", bag)
+        self.succeed("process", raw, "--out", log)
+        unrepaired = [flags & 128 != 0 for flags in AngleLog(log).flags]
+        values = [struct.unpack_from("<37d", data, 20) for _, _, data in Mcap(bag.read_bytes()).messages]
+        self.assertEqual([math.isnan(v[15]) for v in values], unrepaired)
+        sigma = AngleLog(log).sigma
+        self.assertEqual([math.isinf(v[24]) for v in values], [math.isinf(s) for s in sigma])
+
+    def test_nothing_appears_where_nothing_is_whole(self):
+        bag = self.bag(b"mine")
+        self.assertNotEqual(run("process", self.write("raw.csv", b"half\n"), "--out", bag, "--force").returncode, 0)
+        self.assertEqual(bag.read_bytes(), b"mine")
 
 
 if __name__ == "__main__":

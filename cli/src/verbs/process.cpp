@@ -19,6 +19,7 @@
 #include <zlg/rig/replay.hpp>
 #include <zlg/study/half_wave_replay.hpp>
 #include <zlg/study/switch_table.hpp>
+#include <zlg/text/spelling.hpp>
 
 #include "src/as_json.hpp"
 #include "src/failure.hpp"
@@ -168,7 +169,7 @@ nlohmann::json process_json(const Summary& s, const ProcessOptions& options, con
 }
 
 void process(const ProcessOptions& options) {
-    (void)log_format(options.out);
+    if (!text::lower_case(options.out).ends_with(".mcap")) (void)log_format(options.out);
     refuse_own_input(options.raw, options.out);
     if (!options.switches.empty()) {
         require_suffix(options.switches, ".csv");
@@ -224,6 +225,7 @@ void add_process(CLI::App& program) {
     add_strict_option(*verb, *options);
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);
+    verb->get_option("--out")->description("where to write; .mcap: messages sensor_msgs/msg/Imu");
     verb->callback([options] { process(*options); });
 }
 

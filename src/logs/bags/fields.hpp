@@ -1,10 +1,11 @@
 #pragma once
-// Numbers and texts one behind the other, little-endian, as records of bags have them.
+// Numbers and texts one behind the other, little-endian, as records of bags have them: taken, and put.
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 #include "byte_stream.hpp"
@@ -41,5 +42,15 @@ public:
 private:
     std::string_view rest_;
 };
+
+template <class Number>
+void put(std::string& out, Number number) {
+    out.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+inline void put_text(std::string& out, std::string_view text) {
+    put(out, static_cast<std::uint32_t>(text.size()));
+    out += text;
+}
 
 }  // namespace zlg::logs::bags

@@ -73,4 +73,55 @@ ImuMessage imu_message(std::string_view data, std::string_view encoding) {
     return message;
 }
 
+const std::string_view imu_definition =
+    R"(std_msgs/Header header
+geometry_msgs/Quaternion orientation
+float64[9] orientation_covariance
+geometry_msgs/Vector3 angular_velocity
+float64[9] angular_velocity_covariance
+geometry_msgs/Vector3 linear_acceleration
+float64[9] linear_acceleration_covariance
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x 0
+float64 y 0
+float64 z 0
+float64 w 1
+================================================================================
+MSG: geometry_msgs/Vector3
+float64 x
+float64 y
+float64 z
+)";
+
+std::string imu_cdr(std::int64_t stamp_ns, std::string_view frame_id, double rate_rad_s, double variance_rad2_s2) {
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    std::string out{"\0\1\0\0", 4};
+    put(out, static_cast<std::int32_t>(stamp_ns / ns_in_a_second));
+    put(out, static_cast<std::uint32_t>(stamp_ns % ns_in_a_second));
+    put(out, static_cast<std::uint32_t>(frame_id.size() + 1));
+    out += frame_id;
+    do out += '\0';
+    while ((out.size() - 4) % sizeof(double) != 0);
+    const auto put_all = [&out](std::initializer_list<double> values) {
+        for (const double value : values) put(out, value);
+    };
+    put_all({0.0, 0.0, 0.0, 1.0});
+    put_all({-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+    put_all({nothing, nothing, rate_rad_s});
+    put_all({unknown, 0.0, 0.0, 0.0, unknown, 0.0, 0.0, 0.0, variance_rad2_s2});
+    put_all({0.0, 0.0, 0.0});
+    put_all({-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+    return out;
+}
+
 }  // namespace zlg::logs::bags

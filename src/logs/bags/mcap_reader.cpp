@@ -7,24 +7,11 @@
 
 #include "bag_reader.hpp"
 #include "fields.hpp"
+#include "mcap_kinds.hpp"
 
 namespace zlg::logs::bags {
 
 namespace {
-
-// The records of version 0: https://mcap.dev/spec.
-constexpr std::string_view mcap_magic{"\x89MCAP0\r\n", 8};
-
-enum McapKind : std::uint8_t {
-    mcap_footer = 0x02,
-    mcap_schema = 0x03,
-    mcap_channel = 0x04,
-    mcap_message = 0x05,
-    mcap_chunk = 0x06,
-    mcap_statistics = 0x0B,
-    mcap_data_end = 0x0F,
-    mcap_private = 0x80,  // and above: of others, not read
-};
 
 // "sensor_msgs/msg/Imu" of ROS 2 as ROS 1 says it.
 std::string ros_type(std::string_view name) {

@@ -40,7 +40,8 @@ private:
 };
 
 // Writes the columns of AngleTable, in the format that the suffix says: .csv,
-// .h5 or .hdf5; CSV reals in the shortest form that reads back.
+// .h5 or .hdf5; CSV reals in the shortest form that reads back. With the suffix .mcap it writes a bag for other
+// programs: sensor_msgs/msg/Imu, which no AngleReader reads.
 //
 // The file appears under its name at `close`, whole, or not at all. As HDF5 it grows as PATH.part, which can be read
 // meanwhile and after a crash, up to the last `flush`; every 16384 rows are flushed by themselves.
