@@ -12,6 +12,7 @@
 #include <zlg/study/how_made.hpp>
 
 #include "moved_values.hpp"
+#include "repeated_stretch.hpp"
 #include "values.hpp"
 
 namespace zlg::acceptance {
@@ -33,8 +34,7 @@ public:
                 task_.on_progress(static_cast<double>(run.number - 1) / static_cast<double>(result_.plan.runs.size()));
             records_.push_back(read_run(result_.plan, run, task_.said));
             require_new(records_.back());
-            for (const study::AxisRecord& axis : records_.back().axes)
-                records_.back().hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
+            look_at(records_.back());
             analyze(records_.back());
         }
         const Found moved = moved_values();
@@ -96,6 +96,14 @@ private:
         if (const auto cold = of_kind(RunKind::warm_up); !cold.empty()) take(warm_up_values(result_.plan, cold));
         if (!in_field_.empty()) take(magnetic_values(result_.plan, in_field_));
         return all;
+    }
+
+    static void look_at(RunRecord& record) {
+        for (const study::AxisRecord& axis : record.axes) {
+            record.hours += static_cast<double>(axis.rates_arcsec_s.size()) / axis.rate_hz / 3600.0;
+            if (const std::string line = repeated_stretch(axis.rates_arcsec_s); !line.empty())
+                record.stops.push_back(fmt::format("{}: {}", axis.name, line));
+        }
     }
 
     // A measurement under two names, or in two runs of one kind, would agree with itself too well.

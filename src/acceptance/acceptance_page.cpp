@@ -11,6 +11,7 @@
 #include <zlg/study/term_text.hpp>
 
 #include "record.hpp"
+#include "trend.hpp"
 
 namespace zlg::acceptance {
 namespace {
@@ -161,7 +162,8 @@ Section meaning_section() {
 
 }  // namespace
 
-report::Page acceptance_page(const Acceptance& test, const std::string& command) {
+report::Page acceptance_page(const Acceptance& test, const std::string& command,
+                             const std::vector<std::string>& earlier) {
     Page page{.title = fmt::format("Acceptance test of {}", test.plan.unit.serial),
               .verdict = verdict_sentence(test),
               .lead = lead_of(test)};
@@ -174,6 +176,7 @@ report::Page acceptance_page(const Acceptance& test, const std::string& command)
     page.sections.push_back(std::move(summary));
     if (!test.figures.empty()) page.sections.push_back({.heading = "What was measured", .figures = test.figures});
     page.data = record_json(test, command);
+    if (!earlier.empty()) page.sections.push_back(trend_section(test, page.data, earlier));
     page.sections.push_back(runs_section(test));
     page.sections.push_back(meaning_section());
     Section made{.heading = "How this page was made", .is_of_page = true};

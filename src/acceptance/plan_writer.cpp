@@ -21,7 +21,7 @@ constexpr const char* head = R"(# The plan of an acceptance test: zlg accept THI
 
 [unit]
 serial = "unknown"      # of the gyro; a log that says another one is refused
-type = ""
+type = ""               # reports of one type are a trend (--history)
 operator = ""
 equipment = ""
 date = ""               # of the test, as the report shows it

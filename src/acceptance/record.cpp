@@ -139,6 +139,18 @@ std::string report_html(const report::Page& page) {
 
 std::string read_report(const std::string& path) { return record_in(whole(path), path); }
 
+std::vector<std::string> read_reports(const std::string& folder) {
+    std::error_code failed, ignored;
+    std::vector<std::string> paths, records;
+    for (const fs::directory_entry& entry : fs::directory_iterator{folder, failed})
+        if (entry.path().extension() == ".html" && !entry.is_directory(ignored)) paths.push_back(entry.path().string());
+    if (failed) throw logs::IoError(fmt::format("cannot read the folder {}: {}", folder, failed.message()));
+    std::ranges::sort(paths);
+    for (const std::string& path : paths)
+        if (const std::string page = whole(path); !data_of(page).empty()) records.push_back(record_in(page, path));
+    return records;
+}
+
 Verification verify(const std::string& report, const std::vector<std::string>& logs) {
     const ordered_json record = ordered_json::parse(read_report(report));
     Verification found;

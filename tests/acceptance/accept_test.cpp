@@ -177,6 +177,23 @@ TEST(Accept, the_error_of_a_bias_is_that_of_its_mean) {
     EXPECT_NEAR(bias.degrees, error.degrees, 1e-6 * error.degrees);
 }
 
+TEST(Accept, a_stretch_that_stands_twice_is_no_measurement) {
+    const auto bias = [](const std::vector<double>& rates) {
+        write("rest.csv", {rates});
+        return of(accepted(run("static", "rest.csv")), "bias.deg_h").value;
+    };
+    std::vector<double> rates = white(5000, 1.0);
+    rates.insert(rates.end(), rates.begin() + 1000, rates.begin() + 1500);
+    EXPECT_NE(bias(rates).reason.find("samples 5001 to 5500 are those from 1001 on once more"), std::string::npos)
+        << bias(rates).reason;
+    // Of a few values each many a stretch stands twice.
+    std::vector<double> coarse = white(20000, 0.5);
+    for (double& rate : coarse) rate = std::round(rate);
+    EXPECT_TRUE(bias(coarse).determined) << bias(coarse).reason;
+    coarse.insert(coarse.end(), coarse.begin(), coarse.begin() + 9000);
+    EXPECT_NE(bias(coarse).reason.find("once more"), std::string::npos);
+}
+
 TEST(Accept, one_missing_sample_in_a_hundred_is_borne_and_more_are_not) {
     const auto bias = [](std::size_t every) {
         std::vector<double> rates = white(5000, 1.0);

@@ -249,6 +249,27 @@ class Accept(CliTest):
         page.write_text("<html></html>")
         self.assertIn("holds no record", self.refusal(3, "--verify", page))
 
+    def test_earlier_reports_are_a_trend(self):
+        self.at("old").mkdir()
+        self.report("old/1.html", seed=2, unit='serial = "A0"\ntype = "Z"\ndate = 2026-01-01\n')
+        self.report("old/2.html", seed=3, unit='serial = "B0"\ntype = "other"\ndate = 2026-01-01\n')
+        self.at("old/note.html").write_text("<html></html>")
+        log = self.rates("a.csv", white(5000, 1.0))
+        plan = self.plan([self.static(log)], '"bias.deg_h" = { max = 1 }\n', 'serial = "A1"\ntype = "Z"\ndate = 2026-01-02\n')
+        result = run("accept", plan, "--history", self.at("old"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = result.stdout[result.stdout.index("Earlier tests"):]
+        # The same reports once more, and one of this test, made without the others.
+        self.at("old/copy.html").write_bytes(self.at("old/1.html").read_bytes())
+        self.assertEqual(run("accept", plan, "--out", self.at("old/own.html")).returncode, 0)
+        again = run("accept", plan, "--history", self.at("old")).stdout
+        self.assertEqual(again[again.index("Earlier tests"):], rows)
+        self.assertLess(rows.index("A0"), rows.index("A1"))
+        self.assertNotIn("B0", rows)
+        page = self.at("old/1.html")
+        page.write_text(page.read_text().replace("A0", "A9", 1))
+        self.assertIn("edited, cut off or damaged", self.refusal(3, plan, "--history", self.at("old")))
+
     def test_a_plan_is_written_and_carried_out(self):
         log = self.write("a.csv", "t [s],rate [deg/h]\n" + "".join(f"{k / 10},{v!r}\n" for k, v in enumerate(white(2000, 1.0).tolist())))
         plan = self.at("plan.toml")

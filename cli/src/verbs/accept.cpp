@@ -19,6 +19,7 @@ namespace {
 
 struct AcceptOptions : Options {
     std::vector<std::string> files;
+    std::string history;
     bool plan = false;
     bool verify = false;
 };
@@ -28,6 +29,8 @@ void check_usage(const AcceptOptions& options) {
     if (!options.plan && !options.verify && options.files.size() != 1)
         throw UsageError{fmt::format("{} plans; allowed is one (--plan LOG... writes one)", options.files.size())};
     if (options.verify && !options.out.empty()) throw UsageError{"--out: --verify writes no file"};
+    if (!options.history.empty() && (options.plan || options.verify))
+        throw UsageError{"--history: allowed where a plan is carried out"};
     if (options.out.empty()) return;
     require_suffix(options.out, options.plan ? ".toml" : ".html");
     for (const std::string& file : options.files) refuse_own_input(file, options.out);
@@ -52,6 +55,7 @@ std::string command_of(const AcceptOptions& options) {
     std::string command = fmt::format("zlg accept {}", options.files.front());
     if (!options.config_path.empty()) command += " --config " + options.config_path;
     for (const std::string& set : options.sets) command += " --set " + set;
+    if (!options.history.empty()) command += " --history " + options.history;
     return command + " --out REPORT.html";
 }
 
@@ -65,7 +69,9 @@ void accept(const AcceptOptions& options) {
                             .said = said_config(options),
                             .threads = options.threads,
                             .on_progress = [&](double fraction) { progress.show(fraction); }});
-    const report::Page page = acceptance::acceptance_page(test, command_of(options));
+    const auto earlier =
+        options.history.empty() ? std::vector<std::string>{} : acceptance::read_reports(options.history);
+    const report::Page page = acceptance::acceptance_page(test, command_of(options), earlier);
     for (const acceptance::TestedRun& run : test.runs)
         for (const std::string& why : run.stops)
             complain(fmt::format("warning: run {} is no measurement: {}", run.number, why));
@@ -87,6 +93,7 @@ void add_accept(CLI::App& program) {
     verb->add_flag("--plan", options->plan, "write a commented plan for these logs");
     verb->add_flag("--verify", options->verify,
                    "hold a report, and logs, against its record: finds damage, not forgery");
+    verb->add_option("--history", options->history, "a folder with earlier reports, drawn as a trend");
     verb->add_option("--threads", options->threads, "1..64 (2)")->check(CLI::Range(1, 64).description(""));
     add_config_options(*verb, *options);
     add_output_options(*verb, *options);

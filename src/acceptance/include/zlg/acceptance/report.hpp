@@ -13,7 +13,9 @@ namespace zlg::acceptance {
 // As one JSON object. The same inputs give the same bytes: there is neither a clock nor a name of an output in it.
 [[nodiscard]] std::string record_json(const Acceptance& test, const std::string& command);
 
-[[nodiscard]] report::Page acceptance_page(const Acceptance& test, const std::string& command);
+// earlier  records of other tests, as read_report gives them: drawn as a trend where they are of the unit's type.
+[[nodiscard]] report::Page acceptance_page(const Acceptance& test, const std::string& command,
+                                           const std::vector<std::string>& earlier = {});
 
 // The page as a file.
 [[nodiscard]] std::string report_html(const report::Page& page);
@@ -23,6 +25,11 @@ namespace zlg::acceptance {
 // errors  logs::IoError: it cannot be read; logs::FormatError: it holds no record, or its bytes are not those that were
 // written.
 [[nodiscard]] std::string read_report(const std::string& path);
+
+// Those of a folder, in the order of their names; other files are passed over.
+//
+// errors  logs::IoError: no such folder; logs::FormatError: as read_report, of a page that holds a record.
+[[nodiscard]] std::vector<std::string> read_reports(const std::string& folder);
 
 struct Verification {
     bool fits = true;
