@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include <zlg/deviations/deviation_curve.hpp>
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/mode_split.hpp>
 #include <zlg/noise/noise_fit.hpp>
