@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include <zlg/deviations/deviation_curve.hpp>
 #include <zlg/deviations/series.hpp>
 #include <zlg/noise/mode_split.hpp>
 #include <zlg/noise/noise_fit.hpp>
