@@ -53,16 +53,11 @@ export type Columns = Float64Array[];
 
 export interface SwitchRow {
     compensation: number; // 0 as read, 1 by the paper, 2 as configured
-    first_tick: number;
-    gap_ticks: number;
-    last_tick: number;
-    mode_after: number;
     error_arcsec: number;
 }
 
 // One switch, magnified: ticks since the gap began; true, read, extrapolated and interpolated rate, arcsec/s, NaN where there is none.
 export interface SwitchPicture {
-    first_tick: number;
     at_s: number;
     gap_s: number;
     gap_ticks: number;
@@ -102,7 +97,6 @@ export interface Frame {
     kind: "frame";
     number: number; // of the gyro, as it was configured
     state: State;
-    tick_s: number;
     time_s: number;
     speed: number; // measured, gyro's seconds a second
     fingerprint: string; // empty of a gyro that was turned by hand

@@ -62,7 +62,7 @@ export class Recorder {
 
     private take_switch(row: Float64Array): void {
         const [compensation, first_tick, gap_ticks, last_tick, mode_after, error_arcsec] = row;
-        this.unsent.push({ compensation, first_tick, gap_ticks, last_tick, mode_after, error_arcsec });
+        this.unsent.push({ compensation, error_arcsec });
         if (compensation !== configured) return;
         this.pictures.expect({ first_tick, gap_ticks, last_tick, mode_after, cost_arcsec: error_arcsec });
         this.has_new_switch = true;

@@ -261,7 +261,6 @@ class Pace {
             kind: "frame",
             number: this.number,
             state: this.state,
-            tick_s: this.tick_s,
             time_s: module.calls.zlg_time_s(),
             speed: this.state === "running" ? this.measured.speed : 0,
             fingerprint: this.fingerprint.text,
