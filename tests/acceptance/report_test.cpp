@@ -53,6 +53,16 @@ TEST(Report, a_record_of_another_form_is_named) {
     }
 }
 
+// Folders and pages of others are passed over.
+TEST(Report, of_a_folder_those_that_are_reports) {
+    const std::string reports = folder() + "reports/";
+    std::filesystem::create_directories(reports + "more.html");
+    put("reports/a.html", page());
+    put("reports/b.html", "<html></html>");
+    EXPECT_EQ(acceptance::read_reports(reports).size(), 1u);
+    std::filesystem::remove_all(reports);
+}
+
 TEST(Report, a_text_of_the_plan_cannot_end_the_record) {
     write("rest.csv", {white(2000, 1.0)});
     const std::string runs = run("static", "rest.csv");
