@@ -32,7 +32,7 @@ __all__ = [
     "substitution_response",
 ]
 
-Method = Literal["corrected", "worst_case", "as_printed", "closed_form", "random_sign"]
+Method = Literal["corrected", "worst_case", "as_printed", "closed_form"]
 
 
 class Optimum(NamedTuple):

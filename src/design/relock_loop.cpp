@@ -111,19 +111,6 @@ RelockTrace simulate_relock(const RelockLoop& loop, double miss_lambda, int n_ti
     return Simulation{loop, miss_lambda, n_ticks}.run(n_ticks);
 }
 
-std::vector<double> step_response(const RelockLoop& loop, int n_ticks) {
-    constexpr double step_lambda = 0.25;  // linear: the size does not matter
-    RelockLoop linear = loop;
-    linear.limit_lambda = linear.slew_lambda_s = RelockLoop::none;
-    const auto trace = simulate_relock(linear, step_lambda, n_ticks);
-    const std::size_t stride = (trace.detuning_lambda.size() - 1) / static_cast<std::size_t>(n_ticks);
-    std::vector<double> response;
-    for (std::size_t k = stride; k < trace.detuning_lambda.size(); k += stride) {
-        response.push_back(1.0 - trace.detuning_lambda[k] / step_lambda);
-    }
-    return response;
-}
-
 double relock_time_s(const RelockLoop& loop, double miss_lambda, double tolerance_lambda, int n_ticks) {
     return relock_time_s(simulate_relock(loop, miss_lambda, n_ticks), tolerance_lambda);
 }

@@ -65,7 +65,7 @@ constexpr std::string_view where = "switching interval";
 
 // In the order of the enumerators.
 constexpr std::array<std::string_view, interval_methods.size()> names{"corrected", "worst_case", "as_printed",
-                                                                      "closed_form", "random_sign"};
+                                                                      "closed_form"};
 constexpr std::array<std::string_view, 3> sentences{
     "the drift is least at an interval shorter than the run",
     "the drift is least without a switch: in this run none pays for itself",
@@ -107,31 +107,16 @@ double start_slope_arcsec_s(const GyroDrift& gyro, double interval_s, FirstSegme
     return -gyro.magnetic_thermal_arcsec_s / 2.0 * std::tanh(half_ratio) / std::cosh(half_ratio);
 }
 
-// Of what the sawtooth leaves at the worst end.
-double slope_worst_end(const DriftCase& task, double interval_s, FirstSegment first) {
+double slope_worst_case(const DriftCase& task, double interval_s, FirstSegment first) {
     const double start_arcsec = start_residue_arcsec(task.gyro, interval_s, first);
     const double end_arcsec = kernel_arcsec(task.gyro, interval_s, task.run_s);
     const double magnetic_arcsec_s =
         std::copysign(1.0, start_arcsec) * start_slope_arcsec_s(task.gyro, interval_s, first) +
         std::copysign(1.0, end_arcsec) * kernel_slope_arcsec_s(task.gyro, interval_s, task.run_s);
-    return interval_s * magnetic_arcsec_s / task.run_s;
+    return interval_s * magnetic_arcsec_s / task.run_s - task.switch_error_arcsec / interval_s;
 }
 
-double slope_worst_case(const DriftCase& task, double interval_s, FirstSegment first) {
-    return slope_worst_end(task, interval_s, first) - task.switch_error_arcsec / interval_s;
-}
-
-// Of sqrt(M^2 + N^2): (M L M' + N L N')/sqrt(M^2 + N^2), with N as L^(-1/2). The case has no nonmagnetic drift.
-double slope_random_sign(const DriftCase& task, double interval_s, FirstSegment first) {
-    const double noise_arcsec_s = independent_switch_drift_arcsec_s(task, interval_s);
-    const double total_arcsec_s = random_sign_drift_arcsec_s(task, interval_s, first);
-    const double magnetic_arcsec_s =
-        worst_case_drift_arcsec_s(task, interval_s, first) - task.switch_error_arcsec / interval_s;
-    return (magnetic_arcsec_s * slope_worst_end(task, interval_s, first) - 0.5 * noise_arcsec_s * noise_arcsec_s) /
-           total_arcsec_s;
-}
-
-// The same of a run that ends anywhere in a segment: (L (S S' + K K'/3)/t^2 + N L N')/sqrt(S^2/t^2 + K^2/(3 t^2) +
+// Of a run that ends anywhere in a segment: (L (S S' + K K'/3)/t^2 + N L N')/sqrt(S^2/t^2 + K^2/(3 t^2) +
 // N^2).
 double slope_expected(const DriftCase& task, double interval_s, FirstSegment first) {
     const double noise_arcsec_s = independent_switch_drift_arcsec_s(task, interval_s);
@@ -218,19 +203,12 @@ double drift_arcsec_s(IntervalMethod method, const DriftCase& task, double inter
             return terms_as_printed(task, interval_s).total_arcsec_s();
         case IntervalMethod::closed_form:
             return closed_form_drift_arcsec_s(task, interval_s);
-        case IntervalMethod::random_sign:
-            return random_sign_drift_arcsec_s(task, interval_s);
     }
     refuse(method);
 }
 
 Optimum worst_case_optimum(const DriftCase& task, FirstSegment first) {
     return searched(task, with(worst_case_drift_arcsec_s, first), with(slope_worst_case, first), min_of_one_sign_s);
-}
-
-Optimum random_sign_optimum(const DriftCase& task, FirstSegment first) {
-    return searched(task, with(random_sign_drift_arcsec_s, first), with(slope_random_sign, first),
-                    min_of_random_sign_s);
 }
 
 Optimum expected_optimum(const DriftCase& task, FirstSegment first) {
@@ -250,19 +228,8 @@ Optimum optimum(IntervalMethod method, const DriftCase& task) {
             return worst_case_optimum(task, FirstSegment::full);
         case IntervalMethod::closed_form:
             return limited_to_run(method, task, closed_form_interval_s(task));
-        case IntervalMethod::random_sign:
-            return random_sign_optimum(task, FirstSegment::full);
     }
     refuse(method);
-}
-
-Sensitivity sensitivity(IntervalMethod method, const DriftCase& task) {
-    const Optimum best = optimum(method, task);
-    const auto rise = [&](double interval_s) { return drift_arcsec_s(method, task, interval_s) - best.drift_arcsec_s; };
-    Sensitivity result{.shorter_arcsec_s = rise(0.7 * best.interval_s), .longer_arcsec_s = std::nullopt};
-    const double longer_s = 1.3 * best.interval_s;
-    if (longer_s <= task.run_s) result.longer_arcsec_s = rise(longer_s);
-    return result;
 }
 
 }  // namespace zlg::design

@@ -51,17 +51,6 @@ double figure_time_s(int n, double tick_s) {
     return 0.5 * (n + 1) * tick_s;
 }
 
-double leading_error_arcsec(const Tone& tone, int order, int n, double tick_s) {
-    require(order >= 0 && order <= 3, "leading error", "order", order, "0..3");
-    require(n >= 1, "leading error", "n", n, "1 or more ticks");
-    require_positive("leading error", "tick_s", tick_s);
-    const double turn = 2.0 * phase(tone, tick_s);  // w T
-    const double angle = tone.amplitude_arcsec_s * tick_s;
-    const double m = n;
-    if (order < 2) return -angle * turn * turn * m * (m + 2) * (m + 4) / 12.0;
-    return -angle * std::pow(turn, 4) * m * (m + 1) * (m + 2) * (m + 3) * (m + 4) / 720.0;
-}
-
 double highest_frequency_hz(const Substitution& substitution, double amplitude_arcsec_s, double limit_arcsec) {
     require_not_negative("highest frequency", "limit_arcsec", limit_arcsec);
     const auto response = ErrorResponse(substitution);

@@ -17,7 +17,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double relock_tolerance_lambda = 0.01;
 constexpr int relock_ticks_shown = 8;
 constexpr int relock_ticks_at_most = 4000;
-constexpr int step_ticks = 20;
+constexpr int relock_ticks_at_least = 40;
 
 bool is_digital(const config::Config& config) { return config.perimeter.loop == config::Loop::digital; }
 bool is_exponential(const config::Config& config) { return config.perimeter.loop == config::Loop::exponential; }
@@ -61,7 +61,6 @@ struct Relock {
     double from_lambda = unknown;
     std::vector<double> false_drift_arcsec_s;  // per tick
     std::vector<double> mean_square_lambda2;   // per half
-    std::vector<double> made_up;               // part of the miss, per tick
     double time_s = unknown;                   // infinite: not within what was simulated,
     int ticks = 0;                             // which is so long
 };
@@ -74,14 +73,14 @@ design::BiasLaw bias_law(const config::Gyro& gyro) {
 int ticks_needed(const config::Config& config) {
     const double time_constants = 20.0 + 2.0 * presumed_miss_lambda(config) / config.perimeter.limit_lambda;
     const double ticks = time_constants * config.perimeter.tau_s / config.gyro.tick_s;
-    return static_cast<int>(std::clamp(ticks, 40.0, double{relock_ticks_at_most}));
+    return static_cast<int>(std::clamp<double>(ticks, relock_ticks_at_least, relock_ticks_at_most));
 }
 
 // A loop with time constants that are far below a tick is shown for as long as a few seconds of computation go.
 int ticks_affordable(const design::RelockLoop& loop, int ticks) {
     constexpr double max_steps = 2e7;
-    while (ticks > 2 * step_ticks && design::relock_steps(loop, ticks) > max_steps)
-        ticks = std::max(ticks / 2, 2 * step_ticks);
+    while (ticks > relock_ticks_at_least && design::relock_steps(loop, ticks) > max_steps)
+        ticks = std::max(ticks / 2, relock_ticks_at_least);
     return ticks;
 }
 
@@ -92,7 +91,6 @@ Relock relock_of_electronics(const config::Config& config, const design::RelockL
     Relock relock{.from_lambda = miss, .ticks = ticks};
     relock.false_drift_arcsec_s = design::false_drift_arcsec_s(bias_law(config.gyro), trace, -1);
     for (const design::HalfDetuning& half : trace.half) relock.mean_square_lambda2.push_back(half.mean_square_lambda2);
-    relock.made_up = design::step_response(loop, step_ticks);
     relock.time_s = design::relock_time_s(trace, relock_tolerance_lambda);
     return relock;
 }
@@ -138,8 +136,6 @@ Relock relock_on_twin(const config::Config& config) {
     for (; !half.record.loop_closed; half = advance()) relock.from_lambda = std::abs(half.truth.detuning_end_lambda);
     // The twin puts a configured miss in place at the moment of closing.
     if (config.perimeter.miss_lambda > 0.0) relock.from_lambda = config.perimeter.miss_lambda;
-    // What is made up of a detuning within the tolerance says nothing of the loop.
-    const bool shows = relock.from_lambda > relock_tolerance_lambda;
     double last_outside_s = 0.0;
     for (int k = 0; k < ticks; ++k) {
         double false_arcsec = 0.0;
@@ -149,8 +145,6 @@ Relock relock_on_twin(const config::Config& config) {
             false_arcsec += half.truth.false_relock_arcsec;
             relock.mean_square_lambda2.push_back(half.record.detuning_sq_lambda2);
             if (std::abs(end) > relock_tolerance_lambda) last_outside_s = (k + 0.5 * (h + 1)) * config.gyro.tick_s;
-            if (h == 1 && k < step_ticks)
-                relock.made_up.push_back(shows ? 1.0 - std::abs(end) / relock.from_lambda : std::nan(""));
         }
         relock.false_drift_arcsec_s.push_back(-sign * false_arcsec / config.gyro.tick_s);
     }
@@ -163,22 +157,14 @@ Relock relock_of(const config::Config& config) {
     return is_digital(config) ? relock_on_twin(config) : relock_of_electronics(config, relock_loop(config));
 }
 
-double linear_relock_s(config::Config config) {
-    config.perimeter.limit_lambda = 1e3;
-    config.piezo.slew_v_s = 1e12;
-    return relock_of(config).time_s;
-}
-
 void add_relock(const config::Config& config, LoopLine& line) {
     const Relock relock = relock_of(config);
     line.false_angle_law_arcsec = design::false_angle_law_arcsec(
         design::bias_deficit_arcsec_s(bias_law(config.gyro), relock.from_lambda), config.gyro.tick_s);
     line.false_drift_arcsec_s.assign(relock.false_drift_arcsec_s.begin(),
                                      relock.false_drift_arcsec_s.begin() + relock_ticks_shown);
-    line.step = relock.made_up;
     line.relock_from_lambda = relock.from_lambda;
     line.relock_s = relock.time_s;
-    line.relock_linear_s = linear_relock_s(config);
     for (double rate : relock.false_drift_arcsec_s) line.false_angle_arcsec += rate * config.gyro.tick_s;
     if (std::isfinite(line.relock_s)) return;
     line.false_angle_arcsec = unknown;

@@ -37,17 +37,10 @@ Figure budget_figure(const config::Config& config) {
 }
 
 report::Table interval_table(const DesignResult& result) {
-    report::Table t{
-        .caption =
-            "Each method minimises its own budget, so compare intervals, not drifts. The last columns say what "
-            "missing the interval by 30 % costs.",
-        .header = {"run, s", "method", "interval, s", "drift, deg/h", "rise at 0.7 of it, deg/h",
-                   "rise at 1.3 of it, deg/h"}};
+    report::Table t{.caption = "Each method minimises its own budget, so compare intervals, not drifts.",
+                    .header = {"run, s", "method", "interval, s", "drift, deg/h"}};
     for (const IntervalLine& l : result.intervals)
-        t.rows.push_back(report::row(
-            l.run_s, design::name(l.method), l.optimum.interval_s, l.optimum.drift_arcsec_s,
-            l.sensitivity.shorter_arcsec_s,
-            l.sensitivity.longer_arcsec_s ? short_number(*l.sensitivity.longer_arcsec_s) : "beyond the run"));
+        t.rows.push_back(report::row(l.run_s, design::name(l.method), l.optimum.interval_s, l.optimum.drift_arcsec_s));
     return t;
 }
 
@@ -97,8 +90,8 @@ report::Table loop_table(const LoopLine& l) {
                 {"T/tau, and its limit of stability for " + l.stability_note,
                  fmt::format("{}, {}", short_number(l.tick_over_tau), short_number(l.stability_limit))},
                 {fmt::format("re-lock to 0.01 wavelength from {}", short_number(l.relock_from_lambda)),
-                 fmt::format("{} ms{}{}; without limiter and slew {} ms", short_number(1e3 * l.relock_s),
-                             l.relock_note.empty() ? "" : ", ", l.relock_note, short_number(1e3 * l.relock_linear_s))},
+                 fmt::format("{} ms{}{}", short_number(1e3 * l.relock_s), l.relock_note.empty() ? "" : ", ",
+                             l.relock_note)},
                 {"false angle of that re-lock",
                  fmt::format("{} arcsec; by (T/4) G(0+) {} arcsec", short_number(l.false_angle_arcsec),
                              short_number(l.false_angle_law_arcsec))},
@@ -124,16 +117,6 @@ Figure false_drift_figure(const LoopLine& l, double tick_s) {
         add_point(s, static_cast<double>(k + 1), l.false_drift_arcsec_s[k]);
     f.series = {std::move(s)};
     f.caption += fmt::format(" A tick is {} ms.", short_number(1e3 * tick_s));
-    return f;
-}
-
-Figure step_figure(const LoopLine& l, double tick_s) {
-    Figure f =
-        report::blank_figure("step", "Step response of the linear loop",
-                             "The part of a step of the perimeter that the loop has made up.", "time, ms", "made up");
-    Series s = blank_series("without limiter and slew");
-    for (std::size_t k = 0; k < l.step.size(); ++k) add_point(s, 1e3 * tick_s * static_cast<double>(k + 1), l.step[k]);
-    f.series = {std::move(s)};
     return f;
 }
 
@@ -185,7 +168,7 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
          .paragraphs =
              {"corrected: run mean of the thermal term and the sawtooth of the cold gyro. worst_case: exact, "
               "at the worst switch. as_printed: the paper's formula with its mistake. closed_form: no "
-              "thermal change. random_sign: switch errors independent of each other.",
+              "thermal change.",
               fmt::format("The tables take design.switch_error_arcsec = {} for the error of a switch. Of this gyro it "
                           "is {} arcsec rms, {}. The least drift with independent errors of that size:{}.{}",
                           short_number(config.design.switch_error_arcsec), short_number(result.switch_error_arcsec),
@@ -200,8 +183,7 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
          .tables = {substitution_table(result)}});
     page.sections.push_back({.heading = "Perimeter loop",
                              .tables = {loop_table(result.loop), miss_table(result.loop)},
-                             .figures = {false_drift_figure(result.loop, config.gyro.tick_s),
-                                         step_figure(result.loop, config.gyro.tick_s)}});
+                             .figures = {false_drift_figure(result.loop, config.gyro.tick_s)}});
     page.sections.push_back(how_made("design", config));
     return page;
 }

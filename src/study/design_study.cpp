@@ -62,8 +62,7 @@ DesignResult designed(const config::Config& config) {
     for (double run_s : config.design.run_lengths_s) {
         const design::DriftCase task = drift_case(config, run_s);
         for (design::IntervalMethod method : design::interval_methods)
-            result.intervals.push_back(
-                {run_s, method, design::optimum(method, task), design::sensitivity(method, task)});
+            result.intervals.push_back({run_s, method, design::optimum(method, task)});
         result.runs.push_back(run_line(config, result.switch_error_arcsec, run_s));
     }
     result.substitution = substitution_lines(config);

@@ -1,11 +1,11 @@
 """`zlg design`: what a designer's script reads, against computations made here."""
 
 import json
-from math import exp, hypot, sqrt, tanh
+from math import exp, tanh
 
 from support import CliTest, run
 
-METHODS = ["corrected", "worst_case", "as_printed", "closed_form", "random_sign"]
+METHODS = ["corrected", "worst_case", "as_printed", "closed_form"]
 
 
 def least(budget, run_s):
@@ -33,9 +33,6 @@ class Optimum(CliTest):
                 "worst_case": lambda L: nm + ((a + om) * L - a * tau * tanh(L / 2 / tau) * (1 + exp(-t / tau))) / t + dp / L,
                 "as_printed": lambda L: nm + a * tau / 2 / L * (1 - exp(-L / tau)) ** 2 + L * om / t + dp / L,
                 "closed_form": lambda L: nm + L * om / t + dp / L,
-                # The worst end of worst_case beside independent errors.
-                "random_sign": lambda L: nm + hypot(((a + om) * L - a * tau * tanh(L / 2 / tau) * (1 + exp(-t / tau))) / t,
-                                                    dp / sqrt(t * L)),
             }
             for method, budget in budgets.items():
                 interval, drift = least(budget, t)

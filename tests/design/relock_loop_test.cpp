@@ -167,17 +167,6 @@ TEST(RelockLoop, AnOvershootCountsUntilItIsOver) {
     for (double t = last + 1e-5; t < 0.08; t += 1e-5) ASSERT_LT(std::abs(dl(t)), 0.02);
 }
 
-TEST(RelockLoop, TheStepResponseIsLinearAndUndisturbedByTheLimits) {
-    RelockLoop l;
-    l.tau_s = 0.02;
-    l.rc_s = 0.0;
-    l.limit_lambda = 0.001;
-    const auto response = step_response(l, 6);
-    ASSERT_EQ(response.size(), 6u);
-    for (int i = 1; i <= 6; ++i)
-        EXPECT_NEAR(response[static_cast<std::size_t>(i - 1)], 1.0 - std::exp(-i * T / 0.02), 1e-10);
-}
-
 TEST(RelockLoop, RefusesWhatIsOutOfRange) {
     const double nan = std::nan("");
     EXPECT_THROW((void)simulate_relock({}, nan, 4), DesignError);

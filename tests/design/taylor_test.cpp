@@ -45,28 +45,6 @@ TEST(Taylor, TheTimeOfTheFiguresIsHalfAGapAndATick) {
     for (int n = 1; n <= 3; ++n) EXPECT_NEAR(figure_time_s(n, 0.005) * tone.frequency_hz, part[n - 1], 1e-15);
 }
 
-TEST(Taylor, TheLeadingLawsAreTheLimitOfTheExactError) {
-    for (int n = 1; n <= 12; ++n) {
-        for (int order = 0; order <= 3; ++order) {
-            // The relative difference goes as the square of the frequency.
-            const auto difference = [&](double turn) {
-                const Tone slow{12000.0, turn / (2.0 * pi * 0.005)};
-                const double exact = 12000.0 * ErrorResponse({Fit::interpolation, order, n})(slow.frequency_hz).real();
-                return leading_error_arcsec(slow, order, n, 0.005) / exact - 1.0;
-            };
-            const double turn = 0.2 / (n + 3);
-            EXPECT_NEAR(difference(turn), 0.0, 0.01) << n << ' ' << order;
-            EXPECT_NEAR(difference(turn) / difference(2.0 * turn), 0.25, 0.01) << n << ' ' << order;
-        }
-    }
-}
-
-// How far the laws hold, as the header states: over the exact errors at 20 Hz, 154.51 and 26.85 arcsec.
-TEST(Taylor, TheLeadingLawsOverstateByTheStatedParts) {
-    EXPECT_NEAR(leading_error_arcsec(tone, 0, 3, 0.005) / -154.51, 1.34, 0.005);
-    EXPECT_NEAR(leading_error_arcsec(tone, 2, 3, 0.005) / -26.85, 1.22, 0.005);
-}
-
 TEST(Taylor, HighestFrequenciesForTenArcseconds) {
     EXPECT_NEAR(highest_frequency_hz({Fit::interpolation, 0, 3}, 12000.0, 10.0), 4.4, 0.05);
     EXPECT_NEAR(highest_frequency_hz({Fit::interpolation, 1, 3}, 12000.0, 10.0), 4.4, 0.05);
@@ -92,9 +70,6 @@ TEST(Taylor, AMotionThatNeverReachesTheLimitHasTheWholeBand) {
 }
 
 TEST(Taylor, RefusesWhatIsOutOfRange) {
-    EXPECT_THROW((void)leading_error_arcsec(tone, 4, 3, 0.005), DesignError);
-    EXPECT_THROW((void)leading_error_arcsec(tone, 0, 0, 0.005), DesignError);
-    EXPECT_THROW((void)leading_error_arcsec({std::nan(""), 1.0}, 0, 3, 0.005), DesignError);
     EXPECT_THROW((void)series_at_zero(tone, std::nan("")), DesignError);
     EXPECT_THROW((void)series_at_zero(tone, 1.0).above(6), DesignError);
     EXPECT_THROW((void)highest_frequency_hz({}, 1.0, -1.0), DesignError);

@@ -29,10 +29,6 @@ TEST(DesignGyro, finds_the_intervals_of_the_papers_gyro) {
     EXPECT_NEAR(line(r, 3600, IntervalMethod::corrected).optimum.drift_arcsec_s, 0.152, 5e-4);
     EXPECT_NEAR(line(r, 36000, IntervalMethod::as_printed).optimum.interval_s, 294.8, 0.05);
     EXPECT_NEAR(line(r, 36000, IntervalMethod::closed_form).optimum.interval_s, std::sqrt(10.0 * 36000 / 0.7), 0.05);
-    // The worst end has the mean of the drifts at the start and at the end, 0.7 + 0.7 (1 - e^-1.2) arcsec/s.
-    const double om_arcsec_s = 0.7 + 0.35 * (1.0 - std::exp(-1.2));
-    EXPECT_NEAR(line(r, 3600, IntervalMethod::random_sign).optimum.interval_s,
-                std::cbrt(100.0 * 3600 / (2 * om_arcsec_s * om_arcsec_s)), 0.1);
 }
 
 TEST(DesignGyro, gives_the_substitution_errors_of_the_configured_oscillation) {
@@ -140,7 +136,6 @@ TEST(DesignGyro, judges_the_perimeter_loop) {
     ASSERT_GE(r.loop.false_drift_arcsec_s.size(), 4u);
     EXPECT_NEAR(r.loop.false_drift_arcsec_s[0], 4130.0, 0.03 * 4130);
     EXPECT_NEAR(r.loop.false_angle_arcsec, 44.1, 1.0);
-    EXPECT_GT(r.loop.relock_s, r.loop.relock_linear_s) << "the limiter slows it down";
 }
 
 TEST(OptimalInterval, takes_the_place_of_the_word_for_the_length_of_the_run) {

@@ -32,8 +32,6 @@ json interval_json(const study::IntervalLine& l) {
     j["run_s"] = l.run_s;
     j["method"] = design::name(l.method);
     j["status"] = design::sentence(l.optimum.status);
-    j["rise_at_0_7_arcsec_s"] = l.sensitivity.shorter_arcsec_s;
-    j["rise_at_1_3_arcsec_s"] = l.sensitivity.longer_arcsec_s ? json(*l.sensitivity.longer_arcsec_s) : json(nullptr);
     return j;
 }
 

@@ -47,9 +47,6 @@ struct RelockTrace {
 // errors    DesignError for a number out of range.
 [[nodiscard]] RelockTrace simulate_relock(const RelockLoop& loop, double miss_lambda, int n_ticks);
 
-// Unit step of the same loop without limiter and slew: the part of a step that is made up, at the ends of `n_ticks`.
-[[nodiscard]] std::vector<double> step_response(const RelockLoop& loop, int n_ticks);
-
 // When |dl| falls to tolerance_lambda for good, within n_ticks; infinity if it does not.
 [[nodiscard]] double relock_time_s(const RelockLoop& loop, double miss_lambda, double tolerance_lambda, int n_ticks);
 [[nodiscard]] double relock_time_s(const RelockTrace& trace, double tolerance_lambda);  // of a simulation that was made

@@ -7,7 +7,6 @@
 // bracketing method TOMS 748 (Alefeld, Potra and Shi, ACM Trans. Math. Softw. 21, 1995).
 
 #include <array>
-#include <optional>
 #include <string_view>
 
 #include <zlg/design/drift_budget.hpp>
@@ -19,12 +18,10 @@ enum class IntervalMethod {
     worst_case,   // exact at the worst switch, first segment full
     as_printed,   // (7) as printed
     closed_form,  // |nm| + L |Om0|/t + dP/L, whose minimum is the paper's sqrt(dP t/Om0)
-    random_sign,  // random_sign_drift_arcsec_s: dP is the rms of independent switch errors
 };
 
 inline constexpr std::array interval_methods{IntervalMethod::corrected, IntervalMethod::worst_case,
-                                             IntervalMethod::as_printed, IntervalMethod::closed_form,
-                                             IntervalMethod::random_sign};
+                                             IntervalMethod::as_printed, IntervalMethod::closed_form};
 
 // As the enumerator is spelt.
 [[nodiscard]] std::string_view name(IntervalMethod method);
@@ -59,19 +56,9 @@ struct Optimum {
 // errors    DesignError unless the case passes its check, and where numbers overflow.
 [[nodiscard]] Optimum optimum(IntervalMethod method, const DriftCase& task);
 
-// The same for the worst case, and for independent switch errors, when the first segment is full or half.
+// The same for the worst case, when the first segment is full or half.
 [[nodiscard]] Optimum worst_case_optimum(const DriftCase& task, FirstSegment first);
-[[nodiscard]] Optimum random_sign_optimum(const DriftCase& task, FirstSegment first);
 // The least value of expected_drift_arcsec_s: for a run that ends anywhere in a segment.
 [[nodiscard]] Optimum expected_optimum(const DriftCase& task, FirstSegment first);
-
-// How much the drift rises when the interval is missed by 30 %, arcsec/s. Where the drift over nm goes as L/a + a/L, it
-// is 6.4 and 3.5 % of that.
-struct Sensitivity {
-    double shorter_arcsec_s = 0.0;          // at 0.7 of the optimum
-    std::optional<double> longer_arcsec_s;  // at 1.3 of it; unset where that is longer than the run
-};
-
-[[nodiscard]] Sensitivity sensitivity(IntervalMethod method, const DriftCase& task);
 
 }  // namespace zlg::design

@@ -33,15 +33,6 @@ struct RateSeries {
 // The time axis of figs 8-10 that agrees with its own captions: half the gap with one tick more, (n + 1) T/2.
 [[nodiscard]] double figure_time_s(int n, double tick_s);
 
-// Error of the gap sum as nu -> 0, at the extremum, interpolation from 2 + 2 points, w = 2 pi nu:
-//
-//   orders 0, 1   -(A T)(w T)^2 n (n+2)(n+4)/12
-//   orders 2, 3   -(A T)(w T)^4 n (n+1)(n+2)(n+3)(n+4)/720
-//
-// range     low frequency: they overstate by a part that goes as (w T)^2; at n = 3 and nu T = 0.1 by 34 % and 22 %.
-// errors    DesignError for order outside 0..3, n < 1, a tone or tick that is out of range.
-[[nodiscard]] double leading_error_arcsec(const Tone& tone, int order, int n, double tick_s);
-
 // The highest frequency up to which the worst error of the gap sum stays at or below limit_arcsec; 0.5/T where it does
 // so over the whole band of the ticks.
 //

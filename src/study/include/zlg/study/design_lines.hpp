@@ -31,8 +31,6 @@ struct LoopLine {
     std::string relock_note;                   // why there is no time of re-lock; empty where there is one
     double relock_from_lambda = 0.0;           // the configured miss; where that is 0, the one that comes of itself
     double relock_s = 0.0;                     // from there to a hundredth of a wavelength
-    double relock_linear_s = 0.0;              // without limiter and slew
-    std::vector<double> step;                  // of the linear loop, per tick
     std::vector<double> false_drift_arcsec_s;  // per tick after closing
     double false_angle_arcsec = 0.0;
     double false_angle_law_arcsec = 0.0;  // (T/4) G(0+)

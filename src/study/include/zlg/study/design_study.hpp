@@ -18,7 +18,6 @@ struct IntervalLine {
     double run_s = 0.0;
     design::IntervalMethod method = design::IntervalMethod::corrected;
     design::Optimum optimum;
-    design::Sensitivity sensitivity;
 };
 
 // What else there is to say of one length of run.
