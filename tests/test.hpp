@@ -46,8 +46,7 @@
 namespace zlg::test {
 
 // The message of the Error that `action` throws, empty where it throws none.
-template <class Error, class Action>
-std::string refusal_by(Action action) {
+template <class Error, class Action> std::string refusal_by(Action action) {
     try {
         action();
     } catch (const Error& error) {
@@ -57,8 +56,7 @@ std::string refusal_by(Action action) {
 }
 
 // That of an action which must throw: else the test fails.
-template <class Error, class Action>
-std::string message_of(Action action) {
+template <class Error, class Action> std::string message_of(Action action) {
     std::string message = refusal_by<Error>(action);
     EXPECT_NE(message, "") << "nothing was thrown";
     return message;

@@ -47,9 +47,7 @@ void Worker::read_messages() {
 
 void Worker::obey(const Message& message) {
     switch (message.tag) {
-        case Tag::description:
-            try {
-                gyros_.emplace(sweep::with_motion_checksums(same_program(message.text)));
+        case Tag::description: try { gyros_.emplace(sweep::with_motion_checksums(same_program(message.text)));
             } catch (const std::exception& error) {
                 stop(Tag::failed, error.what());
             }
@@ -57,14 +55,9 @@ void Worker::obey(const Message& message) {
         case Tag::gyro:
             if (!is_stopped_) waiting_.push_back(std::stoll(message.text));
             break;
-        case Tag::stop:
-            stop(Tag::stopped);
-            break;
-        case Tag::end:
-            is_ended_ = true;
-            break;
-        default:
-            break;
+        case Tag::stop: stop(Tag::stopped); break;
+        case Tag::end: is_ended_ = true; break;
+        default: break;
     }
 }
 

@@ -27,13 +27,9 @@ using Renamed = std::initializer_list<std::pair<std::string_view, std::string_vi
     return values;
 }
 
-template <class Value>
-[[nodiscard]] nlohmann::json value_json(const Value& value) {
-    return value;
-}
+template <class Value> [[nodiscard]] nlohmann::json value_json(const Value& value) { return value; }
 
-template <class Result>
-[[nodiscard]] nlohmann::json fields_json(const Result& result, Renamed renamed = {}) {
+template <class Result> [[nodiscard]] nlohmann::json fields_json(const Result& result, Renamed renamed = {}) {
     nlohmann::json fields;
     study::for_each_field<Result>([&](std::string_view name, auto get) {
         for (const auto& [member, key] : renamed)

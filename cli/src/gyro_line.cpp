@@ -30,19 +30,14 @@ std::uint16_t any_session() {
 std::string why_not(const wire::Reply& reply) {
     using enum wire::CommandResult;
     switch (reply.result) {
-        case done:
-            return "";
-        case damaged:
-            return "they did not come whole";
-        case other_program:
-            return "they are for the image of another version than this gyro has";
-        case switch_under_way:
-            return "a switch is under way; try again when it has ended";
+        case done: return "";
+        case damaged: return "they did not come whole";
+        case other_program: return "they are for the image of another version than this gyro has";
+        case switch_under_way: return "a switch is under way; try again when it has ended";
         case not_allowed:
             return fmt::format("its core refuses them, {} fault {}",
                                reply.part == wire::RefusingPart::control ? "control" : "compensation", reply.fault);
-        case malformed:
-            break;
+        case malformed: break;
     }
     return "it does not know the command; its image is older";
 }

@@ -12,8 +12,7 @@ namespace {
 constexpr std::array<std::uint8_t, 8> kind{'z', 'l', 'g', '-', 's', 'e', 't', '1'};
 constexpr std::size_t crc_bytes = sizeof(std::uint32_t);
 
-template <class Number>
-Number number_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
+template <class Number> Number number_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
     Number number{};
     std::memcpy(&number, bytes.data() + at, sizeof number);
     return number;

@@ -49,14 +49,9 @@ LogRun::LogRun(std::string name, std::span<const std::string> settings) : name_{
     if (logs::foreign_nature(name_).starts_with("HDF5")) raw_.emplace(name_);  // refuses it
     logs::refuse_foreign(name_);
     switch (logs::recognise_text(name_)) {
-        case logs::LogKind::raw_csv:
-            open_raw(logs::RawReader{name_}, settings);
-            break;
-        case logs::LogKind::angle_csv:
-            open_angles(settings);
-            break;
-        default:
-            open_foreign(settings);
+        case logs::LogKind::raw_csv: open_raw(logs::RawReader{name_}, settings); break;
+        case logs::LogKind::angle_csv: open_angles(settings); break;
+        default: open_foreign(settings);
     }
 }
 

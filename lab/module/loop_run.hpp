@@ -36,8 +36,7 @@ public:
     // One half-period of bias; `on_row` is called with the core::AngleRow that is settled by it, where there is one.
     //
     // errors  config::ConfigError where the rate is beyond any counter.
-    template <class OnRow>
-    rig::LoopHalf advance(const OnRow& on_row) {
+    template <class OnRow> rig::LoopHalf advance(const OnRow& on_row) {
         const rig::LoopHalf half = loop_.advance();
         fingerprint_.take(half, loop_.sensor());
         replay_.take(half.record, loop_.light(), [&](const core::AngleRow& row) {

@@ -57,8 +57,7 @@ std::vector<std::string> lines(std::string_view text) {
 }
 
 // 1, or 0 with a message where `work` throws.
-template <class Work>
-int done(const Work& work) {
+template <class Work> int done(const Work& work) {
     try {
         work();
         return 1;

@@ -7,8 +7,7 @@
 
 namespace zlg::lab {
 
-template <class T>
-class Queue {
+template <class T> class Queue {
 public:
     [[nodiscard]] bool empty() const { return first_ == items_.size(); }
     void push_back(const T& item) { items_.push_back(item); }

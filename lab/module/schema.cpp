@@ -23,8 +23,7 @@ std::string json_text(std::string_view text) {
     return out + "\"";
 }
 
-template <class Range, class Text>
-std::string list(const Range& range, const Text& text) {
+template <class Range, class Text> std::string list(const Range& range, const Text& text) {
     std::string out = "[";
     for (const auto& each : range) {
         if (out.size() > 1) out += ",";

@@ -24,8 +24,7 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
 #ifdef _LIBCPP_HAS_NO_FILESYSTEM
 _LIBCPP_BEGIN_NAMESPACE_STD
 
-template <class Character, class Traits>
-class basic_ifstream : public basic_istream<Character, Traits> {
+template <class Character, class Traits> class basic_ifstream : public basic_istream<Character, Traits> {
 public:
     basic_ifstream() : basic_istream<Character, Traits>(nullptr) {}
     void open(const string&, ios_base::openmode) {}

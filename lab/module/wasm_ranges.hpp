@@ -12,8 +12,7 @@ namespace std::ranges {
 
 using not_equal_to = std::not_equal_to<>;
 
-template <class Range, class Is, class Of = identity>
-constexpr auto find_if(Range&& range, Is is, Of of = {}) {
+template <class Range, class Is, class Of = identity> constexpr auto find_if(Range&& range, Is is, Of of = {}) {
     return std::find_if(begin(range), end(range), [&](auto&& each) { return invoke(is, invoke(of, each)); });
 }
 
@@ -23,49 +22,40 @@ constexpr auto find(Range&& range, const Value& value, Of of = {}) {
         range, [&](const auto& each) { return each == value; }, of);
 }
 
-template <class Range, class Is, class Of = identity>
-constexpr bool any_of(Range&& range, Is is, Of of = {}) {
+template <class Range, class Is, class Of = identity> constexpr bool any_of(Range&& range, Is is, Of of = {}) {
     return ranges::find_if(range, is, of) != end(range);
 }
 
-template <class Range, class Is, class Of = identity>
-constexpr bool none_of(Range&& range, Is is, Of of = {}) {
+template <class Range, class Is, class Of = identity> constexpr bool none_of(Range&& range, Is is, Of of = {}) {
     return !ranges::any_of(range, is, of);
 }
 
-template <class Range, class Is, class Of = identity>
-constexpr bool all_of(Range&& range, Is is, Of of = {}) {
+template <class Range, class Is, class Of = identity> constexpr bool all_of(Range&& range, Is is, Of of = {}) {
     return ranges::none_of(
         range, [&](auto&& each) { return !invoke(is, each); }, of);
 }
 
-template <class Range, class Is, class Of = identity>
-constexpr auto count_if(Range&& range, Is is, Of of = {}) {
+template <class Range, class Is, class Of = identity> constexpr auto count_if(Range&& range, Is is, Of of = {}) {
     return std::count_if(begin(range), end(range), [&](auto&& each) { return invoke(is, invoke(of, each)); });
 }
 
-template <class Range, class Value>
-constexpr auto count(Range&& range, const Value& value) {
+template <class Range, class Value> constexpr auto count(Range&& range, const Value& value) {
     return std::count(begin(range), end(range), value);
 }
 
-template <class Range, class Out>
-constexpr void copy(Range&& range, Out out) {
+template <class Range, class Out> constexpr void copy(Range&& range, Out out) {
     std::copy(begin(range), end(range), out);
 }
 
-template <class Range, class Out, class Is>
-constexpr void copy_if(Range&& range, Out out, Is is) {
+template <class Range, class Out, class Is> constexpr void copy_if(Range&& range, Out out, Is is) {
     std::copy_if(begin(range), end(range), out, is);
 }
 
-template <class Range, class Out, class Make>
-constexpr void transform(Range&& range, Out out, Make make) {
+template <class Range, class Out, class Make> constexpr void transform(Range&& range, Out out, Make make) {
     std::transform(begin(range), end(range), out, make);
 }
 
-template <class Range, class Value>
-constexpr void replace(Range&& range, const Value& before, const Value& now) {
+template <class Range, class Value> constexpr void replace(Range&& range, const Value& before, const Value& now) {
     std::replace(begin(range), end(range), before, now);
 }
 
@@ -86,18 +76,15 @@ constexpr void sort(Range&& range, Less less = {}, Of of = {}) {
     std::sort(begin(range), end(range), [&](auto&& a, auto&& b) { return invoke(less, invoke(of, a), invoke(of, b)); });
 }
 
-template <class Range, class Less = std::less<>>
-constexpr bool is_sorted(Range&& range, Less less = {}) {
+template <class Range, class Less = std::less<>> constexpr bool is_sorted(Range&& range, Less less = {}) {
     return std::is_sorted(begin(range), end(range), less);
 }
 
-template <class Range, class Place>
-constexpr void nth_element(Range&& range, Place nth) {
+template <class Range, class Place> constexpr void nth_element(Range&& range, Place nth) {
     std::nth_element(begin(range), nth, end(range));
 }
 
-template <class Range, class Are = std::equal_to<>>
-constexpr auto adjacent_find(Range&& range, Are are = {}) {
+template <class Range, class Are = std::equal_to<>> constexpr auto adjacent_find(Range&& range, Are are = {}) {
     return std::adjacent_find(begin(range), end(range), are);
 }
 

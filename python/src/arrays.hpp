@@ -19,12 +19,10 @@ namespace zlg::python {
 namespace py = pybind11;
 
 // An array of this type and contiguous is taken as it is; any other is converted.
-template <class T>
-using In = py::array_t<T, py::array::c_style | py::array::forcecast>;
+template <class T> using In = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
 // The numbers of a one-dimensional array; they stay the array's. errors  ValueError: another number of dimensions.
-template <class T>
-[[nodiscard]] std::span<const T> span_of(const In<T>& array, const char* name) {
+template <class T> [[nodiscard]] std::span<const T> span_of(const In<T>& array, const char* name) {
     if (array.ndim() != 1)
         throw std::invalid_argument{std::string{name} + ": has " + std::to_string(array.ndim()) +
                                     " dimensions; allowed is 1"};
@@ -34,8 +32,7 @@ template <class T>
 // Whole numbers: those of another type are converted where that changes none of them.
 //
 // errors  ValueError: 150.7 as a count, 257 in a byte; a masked array, whose mask would be lost.
-template <std::integral T>
-[[nodiscard]] In<T> whole_numbers(const py::object& given, const char* name) {
+template <std::integral T> [[nodiscard]] In<T> whole_numbers(const py::object& given, const char* name) {
     const auto numpy = py::module_::import("numpy");
     if (py::isinstance(given, numpy.attr("ma").attr("MaskedArray")))
         throw std::invalid_argument{std::string{name} + ": is a masked array; allowed is an array without a mask"};
@@ -67,14 +64,12 @@ template <class Function, class... Arrays>
     return py::array_t<double>::ensure(py::vectorize(function)(arrays...));
 }
 
-template <class T>
-[[nodiscard]] std::span<const T> span_of(const std::optional<In<T>>& array, const char* name) {
+template <class T> [[nodiscard]] std::span<const T> span_of(const std::optional<In<T>>& array, const char* name) {
     return array ? span_of(*array, name) : std::span<const T>{};
 }
 
 // The vector becomes the array's own memory.
-template <class T>
-[[nodiscard]] py::array_t<T> as_array(std::vector<T> values, std::vector<py::ssize_t> shape = {}) {
+template <class T> [[nodiscard]] py::array_t<T> as_array(std::vector<T> values, std::vector<py::ssize_t> shape = {}) {
     auto owned = std::make_unique<std::vector<T>>(std::move(values));
     const T* data = owned->data();
     if (shape.empty()) shape = {static_cast<py::ssize_t>(owned->size())};
@@ -89,8 +84,7 @@ template <class T>
 }
 
 // One member of many structs as an array.
-template <class Struct, class Get>
-[[nodiscard]] auto column(const std::vector<Struct>& rows, Get get) {
+template <class Struct, class Get> [[nodiscard]] auto column(const std::vector<Struct>& rows, Get get) {
     using T = std::decay_t<decltype(std::invoke(get, rows.front()))>;
     std::vector<T> values;
     values.reserve(rows.size());
@@ -99,8 +93,7 @@ template <class Struct, class Get>
 }
 
 // What the work gives, done while other threads of Python run.
-template <class Work>
-[[nodiscard]] auto without_interpreter(Work work) {
+template <class Work> [[nodiscard]] auto without_interpreter(Work work) {
     const py::gil_scoped_release released;
     return work();
 }

@@ -93,8 +93,7 @@ py::dict compensate(const py::dict& columns, const config::Config& config, const
     return result;
 }
 
-template <std::size_t N>
-py::dict bits(const std::array<const char*, N>& names) {
+template <std::size_t N> py::dict bits(const std::array<const char*, N>& names) {
     py::dict all;
     for (std::size_t bit = 0; bit < N; ++bit) all[names[bit]] = std::uint32_t{1} << bit;
     return all;

@@ -55,8 +55,7 @@ py::array_t<float> beam(const std::array<float, core::max_light_samples>& sample
     return as_array(std::vector<float>{samples.begin(), samples.begin() + n});
 }
 
-template <class Struct>
-py::class_<Struct> add_members(py::class_<Struct> type) {
+template <class Struct> py::class_<Struct> add_members(py::class_<Struct> type) {
     study::for_each_field<Struct>([&type](const char* name, auto get) {
         using Value = std::remove_cvref_t<decltype(get(std::declval<Struct&>()))>;
         type.def_property(

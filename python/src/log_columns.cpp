@@ -73,8 +73,7 @@ std::span<const T> LogView<Arrays>::hold(const py::dict& columns, const char* na
     return values;
 }
 
-template <class Arrays>
-LogView<Arrays>::LogView(const py::dict& columns) {
+template <class Arrays> LogView<Arrays>::LogView(const py::dict& columns) {
     logs::for_each_column<Arrays>(values_, [&]<class Column>(const Column& column, auto& values, std::size_t) {
         using Value = typename Column::Value;
         if (!Column::is_optional && !has(columns, column.name))

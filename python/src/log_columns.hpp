@@ -13,8 +13,7 @@
 namespace zlg::python {
 
 // The columns that are arrays in Python: all of a log but its first ones, which count the rows, as number and as time.
-template <class Table, std::size_t n_counting>
-struct ArraysOf {
+template <class Table, std::size_t n_counting> struct ArraysOf {
     using Row = typename Table::Row;
     static constexpr auto columns = []<std::size_t... k>(std::index_sequence<k...>) {
         return std::tuple{std::get<n_counting + k>(Table::columns)...};
@@ -24,14 +23,11 @@ struct ArraysOf {
 using RawArrays = ArraysOf<logs::RawTable, 1>;
 using AngleArrays = ArraysOf<logs::AngleTable, 2>;
 
-template <class T>
-using Values = std::vector<T>;
-template <class T>
-using View = std::span<const T>;
+template <class T> using Values = std::vector<T>;
+template <class T> using View = std::span<const T>;
 
 // Collects rows; the arrays of `take_out` are its own memory.
-template <class Arrays>
-class Collector {
+template <class Arrays> class Collector {
 public:
     void reserve(std::size_t rows) {
         logs::for_each_column<Arrays>(values_,
@@ -87,8 +83,7 @@ private:
 [[nodiscard]] logs::RawHeader header_of(const py::dict& columns, double timer_hz);
 
 // The columns of a log as Python holds them, to be read where the interpreter is released.
-template <class Arrays>
-class LogView {
+template <class Arrays> class LogView {
 public:
     // errors  ValueError: a column is missing or of another length; whole numbers that no reader would accept.
     explicit LogView(const py::dict& columns);
@@ -106,8 +101,7 @@ protected:
     }
 
     // Empty where there is no such column. errors  ValueError.
-    template <class T>
-    std::span<const T> hold(const py::dict& columns, const char* name);
+    template <class T> std::span<const T> hold(const py::dict& columns, const char* name);
 
     std::vector<py::object> held_;
 

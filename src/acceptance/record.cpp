@@ -26,8 +26,7 @@ constexpr std::string_view seal_begins = "<!-- zlg accept, XXH64 of all bytes ab
 
 ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
 
-template <class Optional>
-ordered_json optional(const Optional& value) {
+template <class Optional> ordered_json optional(const Optional& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 

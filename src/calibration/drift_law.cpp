@@ -61,8 +61,7 @@ struct Record {
     [[nodiscard]] Eigen::Index n() const { return std::ssize(pieces); }
 
     // Columns: constant of either kind, then `extra` of a piece.
-    template <class Extra>
-    [[nodiscard]] Eigen::MatrixXd laws(Eigen::Index n_extra, Extra extra) const {
+    template <class Extra> [[nodiscard]] Eigen::MatrixXd laws(Eigen::Index n_extra, Extra extra) const {
         Eigen::MatrixXd m(n(), 2 + n_extra);
         for (Eigen::Index p = 0; p < n(); ++p) {
             const Piece& piece = pieces[static_cast<std::size_t>(p)];

@@ -101,8 +101,7 @@ IncrementFit fit_of(const Solution& s, Noise noise, std::int64_t dof) {
 }
 
 // From the curvature of the likelihood: -2 log L changes by 1 within one standard deviation.
-template <class Function>
-double sigma_by_curvature(Function minus_2_log_likelihood, double at) {
+template <class Function> double sigma_by_curvature(Function minus_2_log_likelihood, double at) {
     const double step = 0.05 * at;
     const double curvature =
         (minus_2_log_likelihood(at - step) - 2.0 * minus_2_log_likelihood(at) + minus_2_log_likelihood(at + step)) /

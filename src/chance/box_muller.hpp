@@ -62,8 +62,7 @@ inline constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
 }
 
 // Two deviates of each word. Bit 0 is the sign of the first, bit 1 that of the second.
-template <std::size_t n>
-void transform(const std::array<std::uint64_t, n>& words, double* out) noexcept {
+template <std::size_t n> void transform(const std::array<std::uint64_t, n>& words, double* out) noexcept {
     std::array<double, n> radius, sin, cos;
     for (std::size_t i = 0; i < n; ++i) radius[i] = root_of_log(radius_uniform(words[i]));
     for (std::size_t i = 0; i < n; ++i) {

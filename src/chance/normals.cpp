@@ -17,14 +17,12 @@ namespace zlg::chance {
 namespace {
 
 // Four deviates of each of n blocks, from the block on.
-template <std::size_t n>
-void fill(const Address& address, std::uint32_t block, double* out) noexcept {
+template <std::size_t n> void fill(const Address& address, std::uint32_t block, double* out) noexcept {
     transform(philox_blocks<n>(counter_of(address, of_normals, block), address.seed), out);
 }
 
 // Only the first of them.
-template <std::size_t n>
-void fill_part(const Address& address, std::uint32_t block, std::span<double> out) noexcept {
+template <std::size_t n> void fill_part(const Address& address, std::uint32_t block, std::span<double> out) noexcept {
     std::array<double, 4 * n> all;
     fill<n>(address, block, all.data());
     std::copy_n(all.begin(), out.size(), out.begin());

@@ -62,8 +62,7 @@ std::string share_text(const Requirement& r, const Evaluation& e) {
 }
 
 // Of the tried candidates that lack what is chosen, the one that came nearest.
-template <class Lacks>
-std::string without(const Requirement& r, const Answer& answer, const Lacks& lacks) {
+template <class Lacks> std::string without(const Requirement& r, const Answer& answer, const Lacks& lacks) {
     const Evaluation* best = nullptr;
     for (const Evaluation& e : answer.tried)
         if (lacks(e.candidate) && (best == nullptr || e.share(r.limit_arcsec()) > best->share(r.limit_arcsec())))

@@ -22,8 +22,7 @@ template <auto Section, auto Member>
 using TypeOf = std::remove_reference_t<decltype(std::declval<Config&>().*Section.*Member)>;
 
 // A member of a section, to be read and to be set.
-template <class T>
-struct Place {
+template <class T> struct Place {
     const T& (*read)(const Config&);
     T& (*change)(Config&);
 
@@ -56,15 +55,13 @@ struct Integer {
 };
 
 // A member of any integer type that holds min..max.
-template <auto Section, auto Member>
-constexpr Integer integer(std::int64_t min, std::int64_t max) {
+template <auto Section, auto Member> constexpr Integer integer(std::int64_t min, std::int64_t max) {
     using Type = TypeOf<Section, Member>;
     return {[](const Config& c) { return static_cast<std::int64_t>(c.*Section.*Member); },
             [](Config& c, std::int64_t value) { c.*Section.*Member = static_cast<Type>(value); }, min, max};
 }
 
-template <auto Section, auto Member>
-constexpr Integer sign() {
+template <auto Section, auto Member> constexpr Integer sign() {
     Integer made = integer<Section, Member>(-1, 1);
     made.without_between = true;
     return made;
@@ -115,22 +112,19 @@ struct Choice {
     void (*set)(Config&, int);
 };
 
-template <auto Section, auto Member>
-constexpr Choice choice(std::span<const std::string_view> names) {
+template <auto Section, auto Member> constexpr Choice choice(std::span<const std::string_view> names) {
     using Enum = TypeOf<Section, Member>;
     return {names, [](const Config& c) { return static_cast<int>(c.*Section.*Member); },
             [](Config& c, int index) { c.*Section.*Member = static_cast<Enum>(index); }};
 }
 
-template <auto Section, auto Member>
-constexpr Choice optional_choice(std::span<const std::string_view> names) {
+template <auto Section, auto Member> constexpr Choice optional_choice(std::span<const std::string_view> names) {
     using Enum = typename TypeOf<Section, Member>::value_type;
     return {names, [](const Config& c) { return (c.*Section.*Member) ? static_cast<int>(*(c.*Section.*Member)) : -1; },
             [](Config& c, int index) { c.*Section.*Member = static_cast<Enum>(index); }};
 }
 
-template <auto Section, auto Member>
-constexpr ChoiceList choice_list(std::span<const std::string_view> names) {
+template <auto Section, auto Member> constexpr ChoiceList choice_list(std::span<const std::string_view> names) {
     using Enum = typename TypeOf<Section, Member>::value_type;
     return {names,
             [](const Config& c) {

@@ -24,8 +24,7 @@ std::vector<std::string_view> sections() {
 }
 
 // The key of the lowest cost, the first of equals.
-template <class Cost>
-const Key& cheapest(const Cost& cost) {
+template <class Cost> const Key& cheapest(const Cost& cost) {
     const auto keys = all_keys();
     return *std::min_element(keys.begin(), keys.end(), [&](const Key& a, const Key& b) { return cost(a) < cost(b); });
 }

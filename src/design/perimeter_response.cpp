@@ -31,8 +31,7 @@ std::complex<double> mirror(const PerimeterLoop& loop, double w) {
 }
 
 // Bisection to 48 bits between ends of opposite sign.
-template <class F>
-double root(F f, double low, double high) {
+template <class F> double root(F f, double low, double high) {
     std::uintmax_t calls = 300;
     const auto [a, b] = boost::math::tools::bisect(f, low, high, boost::math::tools::eps_tolerance<double>(48), calls);
     return 0.5 * (a + b);

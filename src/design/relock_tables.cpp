@@ -52,14 +52,10 @@ Integrals critical(double t, double time) {
 
 Integrals integrals(const RelockModel& m, double t) {
     switch (m.decay) {
-        case Decay::slew:
-            return slew(t, m.time_s);
-        case Decay::slew_tail:
-            return slew_tail(t, m.time_s, m.tail_s);
-        case Decay::critical:
-            return critical(t, m.time_s);
-        case Decay::exponential:
-            break;
+        case Decay::slew: return slew(t, m.time_s);
+        case Decay::slew_tail: return slew_tail(t, m.time_s, m.tail_s);
+        case Decay::critical: return critical(t, m.time_s);
+        case Decay::exponential: break;
     }
     return exponential(t, m.time_s);
 }
@@ -89,8 +85,7 @@ RelockFit with_best_deficit(RelockModel model, const TickDrifts& measured) {
 
 // Minimum over log time within T/20..50 T, far below and above what four ticks can show: the best of a grid, then
 // Brent's method between its neighbours. f(log time) -> RelockFit.
-template <class F>
-RelockFit minimise(F f, int n_grid) {
+template <class F> RelockFit minimise(F f, int n_grid) {
     const double low = std::log(table_tick_s / 20.0);
     const double step = (std::log(50.0 * table_tick_s) - low) / n_grid;
     int best = 0;

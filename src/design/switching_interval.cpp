@@ -22,8 +22,7 @@ constexpr double scan_step_ratio = 0.02;
 
 // Where slope changes from negative to not negative between low and high, to the last bits of x. A jump there is a
 // kink.
-template <class Slope>
-double rising_zero(const Slope& slope, double low, double high) {
+template <class Slope> double rising_zero(const Slope& slope, double low, double high) {
     // The bracket is one. What the library would say of another needs streams, and they are half of the lab page's
     // module.
     using Policy =
@@ -39,8 +38,7 @@ double rising_zero(const Slope& slope, double low, double high) {
 //
 // A search on values alone ends at the root of the rounding error, 1e-8 at best; the slope gives the point to full
 // precision. value, slope  of x; slope has the sign of the derivative.
-template <class Value, class Slope>
-double min_point(const Value& value, const Slope& slope, double low, double high) {
+template <class Value, class Slope> double min_point(const Value& value, const Slope& slope, double low, double high) {
     double best = high;
     double best_value = std::numeric_limits<double>::infinity();
     const auto consider = [&](double x) {
@@ -195,14 +193,10 @@ std::string_view sentence(OptimumStatus status) { return sentences.at(static_cas
 
 double drift_arcsec_s(IntervalMethod method, const DriftCase& task, double interval_s) {
     switch (method) {
-        case IntervalMethod::corrected:
-            return corrected_terms(task, interval_s).total_arcsec_s();
-        case IntervalMethod::worst_case:
-            return worst_case_drift_arcsec_s(task, interval_s);
-        case IntervalMethod::as_printed:
-            return terms_as_printed(task, interval_s).total_arcsec_s();
-        case IntervalMethod::closed_form:
-            return closed_form_drift_arcsec_s(task, interval_s);
+        case IntervalMethod::corrected: return corrected_terms(task, interval_s).total_arcsec_s();
+        case IntervalMethod::worst_case: return worst_case_drift_arcsec_s(task, interval_s);
+        case IntervalMethod::as_printed: return terms_as_printed(task, interval_s).total_arcsec_s();
+        case IntervalMethod::closed_form: return closed_form_drift_arcsec_s(task, interval_s);
     }
     refuse(method);
 }
@@ -220,14 +214,10 @@ Optimum optimum(IntervalMethod method, const DriftCase& task) {
         return drift_arcsec_s(method, t, interval_s);
     };
     switch (method) {
-        case IntervalMethod::corrected:
-            return searched(task, drift, slope_corrected, min_of_one_sign_s);
-        case IntervalMethod::as_printed:
-            return searched(task, drift, slope_as_printed, min_of_one_sign_s);
-        case IntervalMethod::worst_case:
-            return worst_case_optimum(task, FirstSegment::full);
-        case IntervalMethod::closed_form:
-            return limited_to_run(method, task, closed_form_interval_s(task));
+        case IntervalMethod::corrected: return searched(task, drift, slope_corrected, min_of_one_sign_s);
+        case IntervalMethod::as_printed: return searched(task, drift, slope_as_printed, min_of_one_sign_s);
+        case IntervalMethod::worst_case: return worst_case_optimum(task, FirstSegment::full);
+        case IntervalMethod::closed_form: return limited_to_run(method, task, closed_form_interval_s(task));
     }
     refuse(method);
 }

@@ -65,8 +65,7 @@ constexpr std::array<Node, 7> of_rates{
 // And of mean angles, 2 added; there is no closed form. Chosen so that 0, 1 and 2 come out as what they are.
 constexpr std::array<Node, 3> of_angles{{{-0.45, 0.0}, {0.60, 1.0}, {1.90, 2.0}}};
 
-template <std::size_t n>
-double straight(const std::array<Node, n>& nodes, double found) {
+template <std::size_t n> double straight(const std::array<Node, n>& nodes, double found) {
     if (found <= nodes.front().found) return nodes.front().noise;
     for (std::size_t k = 1; k < n; ++k)
         if (found <= nodes[k].found) {

@@ -25,14 +25,10 @@ std::string whole(http::status status, std::string_view type, std::string_view m
 http::status status_of(Reply reply) {
     switch (reply) {
         case Reply::page:
-        case Reply::records:
-            return http::status::ok;
-        case Reply::not_found:
-            return http::status::not_found;
-        case Reply::not_allowed:
-            return http::status::method_not_allowed;
-        case Reply::bad_request:
-            break;
+        case Reply::records: return http::status::ok;
+        case Reply::not_found: return http::status::not_found;
+        case Reply::not_allowed: return http::status::method_not_allowed;
+        case Reply::bad_request: break;
     }
     return http::status::bad_request;
 }

@@ -14,8 +14,7 @@
 namespace zlg::live {
 
 // Every stride-th value, from the first on; the stride is doubled whenever `capacity` of them are kept.
-template <class Value, std::size_t capacity>
-class Thinned {
+template <class Value, std::size_t capacity> class Thinned {
 public:
     void add(const Value& value) {
         const bool is_kept = n_ % stride_ == 0;

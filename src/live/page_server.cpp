@@ -110,14 +110,12 @@ private:
         });
     }
 
-    template <class Then>
-    void read(const Then& then) {
+    template <class Then> void read(const Then& then) {
         socket_.async_read_some(asio::buffer(unwanted_), [self = shared_from_this(), then](
                                                              error_code error, std::size_t) { then(*self, !error); });
     }
 
-    template <class Then>
-    void write(const Text& text, const Then& then) {
+    template <class Then> void write(const Text& text, const Then& then) {
         asio::async_write(socket_, asio::buffer(*text),
                           [self = shared_from_this(), text, then](error_code error, std::size_t) {
                               if (error) return self->leave();

@@ -19,12 +19,9 @@ public:
 
     Next next(Record& record) override {
         switch (follower_.next(record.angle)) {
-            case logs::Follower::Next::end:
-                return Next::end;
-            case logs::Follower::Next::nothing:
-                return Next::nothing;
-            case logs::Follower::Next::row:
-                break;
+            case logs::Follower::Next::end: return Next::end;
+            case logs::Follower::Next::nothing: return Next::nothing;
+            case logs::Follower::Next::row: break;
         }
         if (const std::optional<wire::Status>& status = follower_.rows().status()) {
             record.detuning_lambda = status->detuning_lambda;
@@ -47,8 +44,7 @@ private:
 constexpr std::chrono::milliseconds patience{50};
 
 // The next row that is there, or comes.
-template <class Reader, class Row>
-RecordSource::Next next_row(Reader& log, Row& row, bool is_stopped) {
+template <class Reader, class Row> RecordSource::Next next_row(Reader& log, Row& row, bool is_stopped) {
     using Next = RecordSource::Next;
     if (is_stopped) return Next::end;
     if (log.next(row)) return Next::record;
@@ -117,8 +113,7 @@ public:
     }
 
 private:
-    template <class Settle>
-    void take(const core::HalfRecord& half, const Settle& settle) {
+    template <class Settle> void take(const core::HalfRecord& half, const Settle& settle) {
         const bool has_light = log_.header().light_samples > 0;
         const double before_lambda = std::exchange(detuning_lambda_, half.detuning_lambda);
         const core::CompensationOutput out =

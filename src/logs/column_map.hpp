@@ -27,8 +27,7 @@ inline constexpr auto known_columns = [] {
 }();
 
 // The place of a column in its table.
-template <class Table>
-constexpr std::size_t column_named(std::string_view name) {
+template <class Table> constexpr std::size_t column_named(std::string_view name) {
     const auto found = std::find_if(known_columns<Table>.begin(), known_columns<Table>.end(),
                                     [name](const KnownColumn& column) { return column.name == name; });
     return static_cast<std::size_t>(found - known_columns<Table>.begin());

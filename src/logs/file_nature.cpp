@@ -83,8 +83,7 @@ Head head_of(int file, const std::string& path) {
 }
 
 // Numbers of a measurement, none of them as far from 1 as chance makes them.
-template <class Real>
-bool are_reals(const Head& head) {
+template <class Real> bool are_reals(const Head& head) {
     if (head.size % static_cast<std::int64_t>(sizeof(Real)) != 0 || head.n < 2 * sizeof(Real)) return false;
     std::size_t n_zero = 0;
     const std::size_t n = head.n / sizeof(Real);

@@ -14,8 +14,7 @@
 
 namespace zlg::logs {
 
-template <class Table>
-class LogSource {
+template <class Table> class LogSource {
 public:
     virtual ~LogSource() = default;
     virtual bool next(typename Table::Row& row) = 0;
@@ -31,8 +30,7 @@ protected:
     typename Table::Header header_;
 };
 
-template <class Table>
-class LogSink {
+template <class Table> class LogSink {
 public:
     virtual ~LogSink() = default;
     virtual void write(const typename Table::Row& row, const core::LightSamples& light) = 0;
@@ -43,8 +41,7 @@ public:
     [[nodiscard]] virtual const std::string& part_path() const = 0;
 };
 
-template <class Table>
-[[nodiscard]] std::unique_ptr<LogSource<Table>> open_csv(const std::string& path);
+template <class Table> [[nodiscard]] std::unique_ptr<LogSource<Table>> open_csv(const std::string& path);
 [[nodiscard]] std::unique_ptr<LogSource<RawTable>> open_raw_hdf5(const std::string& path);
 [[nodiscard]] std::unique_ptr<LogSource<AngleTable>> open_angle_hdf5(const std::string& path);
 
@@ -79,8 +76,7 @@ std::unique_ptr<LogSource<Table>> open_log(const std::string& path,
 }
 
 // Which of the optional columns `log.has`.
-template <class Log>
-void note_columns(const Log& log, RawColumns& columns) {
+template <class Log> void note_columns(const Log& log, RawColumns& columns) {
     for_each_column<RawTable>([&]<class Field>(const Field& field, std::size_t column) {
         if constexpr (Field::is_optional) columns.*field.is_there = log.has(column);
     });
@@ -89,8 +85,7 @@ void note_columns(const Log& log, RawColumns& columns) {
 // What no reader would accept is not written: a real number against its rule, a value that has no column but needs one.
 //
 // errors  FormatError.
-template <class Table>
-void require_loggable(const typename Table::Row& row, const typename Table::Presence& columns) {
+template <class Table> void require_loggable(const typename Table::Row& row, const typename Table::Presence& columns) {
     const auto refuse = [&row](const std::string& what) {
         const auto& number = std::get<0>(Table::columns);
         throw FormatError(fmt::format("{} {} cannot be logged: {}", number.name, number.of(row), what));

@@ -55,8 +55,7 @@ struct Law {
 
 // slow   part of the variance of the mean over that of the white noise.
 // shape  of the slow noise in mode k, where the white noise has 1 and the part is 1.
-template <class Shape>
-Law law_of(const std::vector<Mode>& modes, double n, double slow, Shape shape) {
+template <class Shape> Law law_of(const std::vector<Mode>& modes, double n, double slow, Shape shape) {
     const auto m = static_cast<double>(modes.size());
     double q = 0.0, logs = 0.0, g = 0.0, squares = 0.0;
     for (const Mode& mode : modes) {
@@ -74,8 +73,7 @@ Law law_of(const std::vector<Mode>& modes, double n, double slow, Shape shape) {
 }
 
 // Those of one kind weigh 1 together.
-template <class Shape>
-void add_kind(const std::vector<Mode>& modes, double n, Shape shape, std::vector<Law>& all) {
+template <class Shape> void add_kind(const std::vector<Mode>& modes, double n, Shape shape, std::vector<Law>& all) {
     std::vector<Law> kind;
     double every = 0.0;
     for (int octave = first_octave; octave <= last_octave; ++octave) {

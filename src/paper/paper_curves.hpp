@@ -16,8 +16,7 @@ struct Look {
     bool dashed = false;
 };
 
-template <class Formula>
-[[nodiscard]] report::Series curve(Look look, std::vector<double> x, const Formula& y_of) {
+template <class Formula> [[nodiscard]] report::Series curve(Look look, std::vector<double> x, const Formula& y_of) {
     report::Series s{.name = std::move(look.name), .x = std::move(x), .dashed = look.dashed, .colour = look.colour};
     for (const double at : s.x) s.y.push_back(y_of(at));
     return s;

@@ -56,8 +56,7 @@ struct Finding {
 
 }  // namespace zlg::paper
 
-template <>
-struct fmt::formatter<zlg::paper::Shown> {
+template <> struct fmt::formatter<zlg::paper::Shown> {
     std::string_view as;
 
     constexpr auto parse(fmt::format_parse_context& context) {

@@ -112,14 +112,12 @@ std::string swatch(const Series& series, const LegendEntry& entry) {
     const double middle = entry.line.y - 5.5;
     const double x = entry.line.x;
     switch (series.mark) {
-        case Mark::points:
-            return marker(look_of(series, entry.series), x + 0.5 * swatch_width, middle, 4.2);
+        case Mark::points: return marker(look_of(series, entry.series), x + 0.5 * swatch_width, middle, 4.2);
         case Mark::bars:
             return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"12\" fill-opacity=\"0.55\"/>\n",
                                coordinate(x), coordinate(middle - 6.0), coordinate(swatch_width));
         case Mark::line:
-        case Mark::steps:
-            break;
+        case Mark::steps: break;
     }
     return fmt::format("<path d=\"M{},{}h{}\" stroke-width=\"2.4\"{}/>\n", coordinate(x), coordinate(middle),
                        coordinate(swatch_width), dash_of(series, entry.series));

@@ -123,30 +123,20 @@ std::string marker(std::size_t series, double x, double y, double radius) {
     const auto r = [radius](double factor) { return coordinate(factor * radius); };
     const std::string at = fmt::format("<path d=\"M{},{}", coordinate(x), coordinate(y));
     switch (series % 4) {
-        case 0:
-            return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", coordinate(x), coordinate(y), r(1.0));
-        case 1:
-            return fmt::format("{}m-{},-{}h{}v{}h-{}z\"/>\n", at, r(0.9), r(0.9), r(1.8), r(1.8), r(1.8));
-        case 2:
-            return fmt::format("{}m0,-{}l{},{}h-{}z\"/>\n", at, r(1.2), r(1.1), r(2.0), r(2.2));
-        default:
-            return fmt::format("{0}m0,-{1}l{1},{1}l-{1},{1}l-{1},-{1}z\"/>\n", at, r(1.3));
+        case 0: return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", coordinate(x), coordinate(y), r(1.0));
+        case 1: return fmt::format("{}m-{},-{}h{}v{}h-{}z\"/>\n", at, r(0.9), r(0.9), r(1.8), r(1.8), r(1.8));
+        case 2: return fmt::format("{}m0,-{}l{},{}h-{}z\"/>\n", at, r(1.2), r(1.1), r(2.0), r(2.2));
+        default: return fmt::format("{0}m0,-{1}l{1},{1}l-{1},{1}l-{1},-{1}z\"/>\n", at, r(1.3));
     }
 }
 
 std::string marks_of(const Series& series, std::size_t index, const Layout& layout) {
     std::string marks = error_bars(series, layout);
     switch (series.mark) {
-        case Mark::points:
-            marks += points(series, index, layout);
-            break;
-        case Mark::bars:
-            marks += bars(series, layout);
-            break;
+        case Mark::points: marks += points(series, index, layout); break;
+        case Mark::bars: marks += bars(series, layout); break;
         case Mark::line:
-        case Mark::steps:
-            marks += lines(series, index, layout);
-            break;
+        case Mark::steps: marks += lines(series, index, layout); break;
     }
     if (marks.empty()) return "";
     return fmt::format("<g class=\"series\" stroke=\"{0}\" fill=\"{0}\">\n{1}</g>\n", colour_of(look_of(series, index)),

@@ -117,8 +117,7 @@ std::string attributes_of(const Figure& figure) {
 }
 
 // A figure or a diagram.
-template <class Drawing>
-std::string drawing_of(Drawing drawing, Counters& counters) {
+template <class Drawing> std::string drawing_of(Drawing drawing, Counters& counters) {
     const std::string numbered = fmt::format("figure-{}", ++counters.n_figures);
     drawing.id = clean_id(drawing.id, numbered);
     if (!counters.ids.insert(drawing.id).second) {

@@ -48,22 +48,15 @@ std::size_t exponent_length(std::string_view text, std::size_t i) {
 
 std::string escaped_character(std::string_view character) {
     switch (character.front()) {
-        case '&':
-            return "&amp;";
-        case '<':
-            return "&lt;";
-        case '>':
-            return "&gt;";
-        case '"':
-            return "&quot;";
-        case '\'':
-            return "&#39;";
+        case '&': return "&amp;";
+        case '<': return "&lt;";
+        case '>': return "&gt;";
+        case '"': return "&quot;";
+        case '\'': return "&#39;";
         case '\t':
         case '\n':
-        case '\r':
-            return " ";
-        default:
-            break;
+        case '\r': return " ";
+        default: break;
     }
     if (byte_at(character, 0) < 0x20 || byte_at(character, 0) == 0x7F) return "\uFFFD";
     return std::string{character};

@@ -94,8 +94,7 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
                                             .lock_in = lock_in_of(config),
                                             .gyro = constants_of(config)};
     switch (check(made)) {
-        case core::GyroCompensationFault::none:
-            return made;
+        case core::GyroCompensationFault::none: return made;
         case core::GyroCompensationFault::bridge:
             require_points(config, bridge);
             refuse(config, {"gyro.tick_s", "switching.gap_ticks", "compensation.relock_ticks"},
@@ -106,8 +105,7 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
         case core::GyroCompensationFault::relock:
             refuse(config, {"gyro.tick_s", "gyro.scale_arcsec", "gyro.bias_hz", "gyro.bias_chi", "gyro.bias_edge_s"},
                    "a gyro that can be compensated: finite numbers, edges shorter than half a tick");
-        case core::GyroCompensationFault::random_walk:
-            refuse(config, {"drift.random_walk_arcsec_sqrt_s"}, "0..1e6");
+        case core::GyroCompensationFault::random_walk: refuse(config, {"drift.random_walk_arcsec_sqrt_s"}, "0..1e6");
         case core::GyroCompensationFault::profile:
             refuse(config, {"gyro.discriminator_per_lambda", "compensation.relock"},
                    "sizes 1e-6..1e6 where the light is read");

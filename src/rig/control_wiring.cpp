@@ -103,16 +103,13 @@ void require_loop(const config::Config& config, const core::PerimeterLoopConfig&
 // errors  config::ConfigError where the core's check refuses what was made of the configuration.
 void require_control(const config::Config& config, const core::GyroControlConfig& made) {
     switch (check(made)) {
-        case core::GyroControlFault::none:
-            return;
+        case core::GyroControlFault::none: return;
         case core::GyroControlFault::detector:
             refuse(config,
                    {"gyro.discriminator_per_lambda", "perimeter.discriminator_detuning_lambda",
                     "perimeter.discriminator_signal"},
                    "a slope of size 1e-6..1e6, and a curve that grows, up to 1e3 wavelengths by that slope");
-        case core::GyroControlFault::loop:
-            require_loop(config, made.loop);
-            break;
+        case core::GyroControlFault::loop: require_loop(config, made.loop); break;
         case core::GyroControlFault::half_wave:
         case core::GyroControlFault::temperature:
             refuse(config, {"piezo.half_wave_v", "piezo.half_wave_error", "gyro.reference_temperature_c"},

@@ -18,8 +18,7 @@ class Bytes {
 public:
     explicit Bytes(std::span<unsigned char> room) : byte_{room.data()} {}
 
-    template <class Word>
-    void word(Word value) {
+    template <class Word> void word(Word value) {
         if constexpr (is_in_order)
             std::memcpy(&byte_[size_], &value, sizeof(Word));
         else

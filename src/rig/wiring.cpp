@@ -36,13 +36,10 @@ void refuse_unread(const char* key, const config::Course& course) {
 twin::Motion motion(const config::Config& config) {
     const config::Motion& m = config.motion;
     switch (m.kind) {
-        case config::MotionKind::rest:
-            return twin::Motion::rest();
-        case config::MotionKind::constant:
-            return twin::Motion::sines(m.rate_arcsec_s, {});
+        case config::MotionKind::rest: return twin::Motion::rest();
+        case config::MotionKind::constant: return twin::Motion::sines(m.rate_arcsec_s, {});
         case config::MotionKind::sine:
-        case config::MotionKind::sum:
-            return sines(m);
+        case config::MotionKind::sum: return sines(m);
         case config::MotionKind::file:
             throw ConfigError{
                 "motion.kind = \"file\": no files are read here; allowed are \"rest\", \"constant\", \"sine\", "

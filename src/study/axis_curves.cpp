@@ -17,12 +17,9 @@ DeviationKind kind_of(config::Deviation d) { return deviations::deviation_kinds[
 
 std::vector<std::int64_t> spaced_factors(const config::Analysis& c, std::int64_t largest) {
     switch (c.taus) {
-        case config::Taus::decade:
-            return deviations::decade_factors(largest);
-        case config::Taus::all:
-            return deviations::all_factors(largest);
-        case config::Taus::octave:
-            break;
+        case config::Taus::decade: return deviations::decade_factors(largest);
+        case config::Taus::all: return deviations::all_factors(largest);
+        case config::Taus::octave: break;
     }
     return deviations::octave_factors(largest);
 }

@@ -78,13 +78,10 @@ noise::KalibrGyro kalibr_gyro(const std::vector<AxisResult>& axes) {
 
 double shown_rate(config::ShownRate unit, double arcsec_s) {
     switch (unit) {
-        case config::ShownRate::deg_s:
-            return arcsec_s / 3600.0;
-        case config::ShownRate::rad_s:
-            return arcsec_s * std::numbers::pi / 648000.0;
+        case config::ShownRate::deg_s: return arcsec_s / 3600.0;
+        case config::ShownRate::rad_s: return arcsec_s * std::numbers::pi / 648000.0;
         case config::ShownRate::deg_h:
-        case config::ShownRate::arcsec_s:
-            break;
+        case config::ShownRate::arcsec_s: break;
     }
     return arcsec_s;
 }

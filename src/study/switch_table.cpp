@@ -7,8 +7,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-template <class Value>
-const Value* found(const std::map<std::int64_t, Value>& all, std::int64_t tick) {
+template <class Value> const Value* found(const std::map<std::int64_t, Value>& all, std::int64_t tick) {
     const auto at = all.find(tick);
     return at != all.end() ? &at->second : nullptr;
 }

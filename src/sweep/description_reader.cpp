@@ -164,8 +164,7 @@ Metric read_metric(const Table& table) {
 }
 
 // use(table) for each of [[name]].
-template <class Use>
-void for_each_table(const Table& root, const std::string& name, const Use& use) {
+template <class Use> void for_each_table(const Table& root, const std::string& name, const Use& use) {
     if (!root.has(name)) return;
     const toml::array* array = root.node(name).as_array();
     if (array == nullptr || !array->is_array_of_tables())

@@ -69,16 +69,11 @@ double Draws::number(std::size_t parameter, std::int64_t gyro) const {
     const Parameter& p = description_.parameters[parameter];
     chance::Draw draw{description_.seed, chance::Cause::sweep_parameter, static_cast<std::uint64_t>(gyro), thing_of(p)};
     switch (p.draw) {
-        case DrawKind::log_uniform:
-            return draw.within_log(p.min, p.max);
-        case DrawKind::normal:
-            return p.mean + p.sd * draw.normal();
-        case DrawKind::truncated:
-            return truncated(p, draw);
-        case DrawKind::latin:
-            return latin(parameter, gyro);
-        default:
-            return draw.within(p.min, p.max);
+        case DrawKind::log_uniform: return draw.within_log(p.min, p.max);
+        case DrawKind::normal: return p.mean + p.sd * draw.normal();
+        case DrawKind::truncated: return truncated(p, draw);
+        case DrawKind::latin: return latin(parameter, gyro);
+        default: return draw.within(p.min, p.max);
     }
 }
 

@@ -20,8 +20,7 @@ constexpr std::int64_t format_version = 2;
 
 using logs::FileColumn;
 
-template <class Get>
-auto column(const Rows& rows, const Get& get) {
+template <class Get> auto column(const Rows& rows, const Get& get) {
     std::vector<decltype(get(rows.begin()->second))> values;
     values.reserve(rows.size());
     for (const auto& [gyro, row] : rows) values.push_back(get(row));

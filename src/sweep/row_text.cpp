@@ -24,8 +24,7 @@ std::vector<std::string_view> split(std::string_view line) {
     return fields;
 }
 
-template <class T>
-bool read_number(std::string_view text, T& value) {
+template <class T> bool read_number(std::string_view text, T& value) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc{} && end == text.data() + text.size();
 }

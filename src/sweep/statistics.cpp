@@ -32,8 +32,7 @@ void add_moments(MetricSummary& summary, const std::vector<double>& values) {
     if (values.size() > 1) summary.sd = std::sqrt(squares / (n - 1.0));
 }
 
-template <class Passes>
-Yield yield_where(const Rows& rows, const Passes& is_passed) {
+template <class Passes> Yield yield_where(const Rows& rows, const Passes& is_passed) {
     return yield_of(std::ranges::count_if(rows, [&](const auto& row) { return is_passed(row.second); }),
                     std::ssize(rows));
 }

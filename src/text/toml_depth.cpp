@@ -43,19 +43,11 @@ std::optional<Place> too_deep(std::string_view toml) {
     int key = 0, dots = 0;  // levels of the key whose value is being read; of the key or number that is being read
     for (std::size_t at = 0; at < toml.size(); ++at) {
         switch (toml[at]) {
-            case '#':
-                at = std::min(toml.find('\n', at), toml.size()) - 1;
-                break;
+            case '#': at = std::min(toml.find('\n', at), toml.size()) - 1; break;
             case '"':
-            case '\'':
-                at = end_of_string(toml, at);
-                break;
-            case '.':
-                ++dots;
-                break;
-            case '=':
-                key = std::exchange(dots, 0) + 1;
-                break;
+            case '\'': at = end_of_string(toml, at); break;
+            case '.': ++dots; break;
+            case '=': key = std::exchange(dots, 0) + 1; break;
             case '\n':  // a key of the outermost level is over; a value in brackets goes on
                 dots = 0;
                 if (n_open == 0) key = 0;
@@ -77,11 +69,8 @@ std::optional<Place> too_deep(std::string_view toml) {
                 else
                     --n_open;
                 [[fallthrough]];
-            case ',':
-                key = dots = 0;
-                break;
-            default:
-                break;
+            case ',': key = dots = 0; break;
+            default: break;
         }
         if (around[n_open] + key + dots > max_toml_levels) return place_of(toml, at);
     }

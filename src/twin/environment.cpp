@@ -48,18 +48,14 @@ double bias_change(const GyroConfig& gyro, double above_reference_c) {
 
 double field_g(const FieldConfig& field, double time_s) {
     switch (field.kind) {
-        case FieldKind::none:
-            break;
-        case FieldKind::constant:
-            return field.field_g;
+        case FieldKind::none: break;
+        case FieldKind::constant: return field.field_g;
         case FieldKind::sine: {
             const double turns = field.frequency_hz * time_s;
             return field.field_g * core::maths::sin(2.0 * std::numbers::pi * (turns - std::floor(turns)));
         }
-        case FieldKind::steps:
-            return stepped(field.course.points, time_s);
-        case FieldKind::file:
-            return between(field.course.points, time_s);
+        case FieldKind::steps: return stepped(field.course.points, time_s);
+        case FieldKind::file: return between(field.course.points, time_s);
     }
     return 0.0;
 }

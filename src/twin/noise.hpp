@@ -38,8 +38,7 @@ private:
 
 // Drawn for many halves at once, where each half takes as many: a deviate in a block of 64 costs far less than one by
 // itself. The address of half h is that of block h/(64/each), index each (h mod 64/each) on.
-template <std::size_t each>
-class NoiseAhead {
+template <std::size_t each> class NoiseAhead {
 public:
     NoiseAhead(std::uint64_t seed, chance::Cause cause) : noise_{seed, cause} {}
 

@@ -23,16 +23,14 @@ requires(!std::same_as<Number, bool>) using BitsOf =
 
 class Packer {
 public:
-    template <class... Numbers>
-    void operator()(const Numbers&... numbers) noexcept {
+    template <class... Numbers> void operator()(const Numbers&... numbers) noexcept {
         (put(std::bit_cast<BitsOf<Numbers>>(numbers)), ...);
     }
 
     [[nodiscard]] std::span<const std::uint8_t> body() const noexcept { return std::span{bytes_}.first(n_); }
 
 private:
-    template <class Bits>
-    void put(Bits x) noexcept {
+    template <class Bits> void put(Bits x) noexcept {
         for (std::size_t k = 0; k < sizeof x && n_ < bytes_.size(); ++k)
             bytes_[n_++] = static_cast<std::uint8_t>(x >> (8 * k));
     }
@@ -46,14 +44,12 @@ class Unpacker {
 public:
     explicit Unpacker(std::span<const std::uint8_t> bytes) noexcept : left_{bytes} {}
 
-    template <class... Numbers>
-    void operator()(Numbers&... numbers) noexcept {
+    template <class... Numbers> void operator()(Numbers&... numbers) noexcept {
         ((numbers = std::bit_cast<Numbers>(taken<BitsOf<Numbers>>())), ...);
     }
 
 private:
-    template <class Bits>
-    [[nodiscard]] Bits taken() noexcept {
+    template <class Bits> [[nodiscard]] Bits taken() noexcept {
         std::uint64_t x = 0;
         for (std::size_t k = 0; k < sizeof(Bits) && k < left_.size(); ++k) x |= std::uint64_t{left_[k]} << (8 * k);
         left_ = left_.subspan(sizeof(Bits) < left_.size() ? sizeof(Bits) : left_.size());

@@ -13,8 +13,7 @@ enum Content : std::uint8_t { content_closed = 1, content_held = 2, content_aske
 constexpr std::uint8_t contents = content_closed | content_held | content_asked;
 
 // The numbers of the body in their order.
-template <class Codec, class AnyStatus>
-void lay_out(Codec&& codec, AnyStatus& s, std::uint8_t& content) noexcept {
+template <class Codec, class AnyStatus> void lay_out(Codec&& codec, AnyStatus& s, std::uint8_t& content) noexcept {
     codec(s.tick, s.phase, s.polarity, content, s.n_late, s.tick_s, s.scale_arcsec, s.timer_hz, s.health, s.n_switches,
           s.n_failed, s.half_wave_v, s.half_wave_sigma_v, s.piezo_v, s.temperature_c, s.detuning_lambda,
           s.magnetic_arcsec_s, s.switch_error_arcsec, s.settings_crc, s.n_received, s.n_damaged, s.n_overruns,

@@ -48,8 +48,7 @@ struct Rest {
 };
 
 // The numbers of the body in their order.
-template <class Codec, class AnyTelemetry>
-void lay_out(Codec&& codec, AnyTelemetry& t, Rest& rest) noexcept {
+template <class Codec, class AnyTelemetry> void lay_out(Codec&& codec, AnyTelemetry& t, Rest& rest) noexcept {
     codec(t.tick, t.settled_age_ticks, rest.content, rest.zero, t.angle, t.dtheta_arcsec, t.flags, t.health, t.mode,
           t.settled_mode, rest.zeros, t.temperature_c, t.settled_dtheta_arcsec, t.settled_final_arcsec,
           t.settled_sigma_arcsec, t.settled_angle, t.settled_final_angle, t.settled_flags, t.time.n_pulses,

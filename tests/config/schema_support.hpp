@@ -19,10 +19,7 @@ inline Config with(std::initializer_list<std::string_view> settings) {
     return config;
 }
 
-template <class Action>
-std::string complaint(Action action) {
-    return test::message_of<ConfigError>(action);
-}
+template <class Action> std::string complaint(Action action) { return test::message_of<ConfigError>(action); }
 
 inline std::string toml_complaint(std::string_view text) {
     return complaint([&] { static_cast<void>(from_toml(text)); });

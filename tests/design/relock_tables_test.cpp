@@ -12,14 +12,11 @@ constexpr Decay decays[] = {Decay::exponential, Decay::slew, Decay::slew_tail, D
 double detuning(const RelockModel& m, double t) {
     const double change = m.time_s - m.tail_s;
     switch (m.decay) {
-        case Decay::exponential:
-            return std::exp(-t / m.time_s);
-        case Decay::slew:
-            return t < m.time_s ? 1.0 - t / m.time_s : 0.0;
+        case Decay::exponential: return std::exp(-t / m.time_s);
+        case Decay::slew: return t < m.time_s ? 1.0 - t / m.time_s : 0.0;
         case Decay::slew_tail:
             return t < change ? 1.0 - t / m.time_s : m.tail_s / m.time_s * std::exp(-(t - change) / m.tail_s);
-        case Decay::critical:
-            return (1.0 + t / m.time_s) * std::exp(-t / m.time_s);
+        case Decay::critical: return (1.0 + t / m.time_s) * std::exp(-t / m.time_s);
     }
     return 0.0;
 }

@@ -115,8 +115,7 @@ struct Least {
 };
 
 // Golden section in the logarithm, started from the best of 2000 points.
-template <class F>
-Least brute_force(const F& f, Real low, Real high) {
+template <class F> Least brute_force(const F& f, Real low, Real high) {
     constexpr int n = 2000;
     const auto point = [&](int i) { return low * std::exp(std::log(high / low) * static_cast<Real>(i) / n); };
     int best = 0;

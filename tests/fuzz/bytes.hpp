@@ -33,8 +33,7 @@ public:
     [[nodiscard]] bool empty() const { return left_.empty(); }
     [[nodiscard]] std::size_t size() const { return left_.size(); }
 
-    template <class Number>
-    [[nodiscard]] Number take() {
+    template <class Number> [[nodiscard]] Number take() {
         Number number{};
         const std::size_t n = std::min(sizeof number, left_.size());
         if (n > 0) std::memcpy(&number, left_.data(), n);

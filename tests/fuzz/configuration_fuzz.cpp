@@ -20,8 +20,7 @@ struct Written {
     std::string toml = config::to_toml(config);
 
     // What throws anything else than a ConfigError ends the process.
-    template <class Apply>
-    bool apply(Apply to) {
+    template <class Apply> bool apply(Apply to) {
         try {
             to(config);
         } catch (const config::ConfigError& error) {

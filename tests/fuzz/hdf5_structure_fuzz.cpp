@@ -161,23 +161,14 @@ void add_column(Bytes& bytes, const Table& table, const std::string& name, bool 
 // Something else under the name of a column, or nothing.
 void add_stranger(Bytes& bytes, const Table& table, const std::string& name) {
     switch (bytes.index(6)) {
-        case 0:
-            (void)Id{H5Gcreate2(table.group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)};
-            break;
-        case 1:
-            H5Lcreate_soft("half", table.group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-            break;
-        case 2:
-            H5Lcreate_soft(name.c_str(), table.group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-            break;
+        case 0: (void)Id{H5Gcreate2(table.group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)}; break;
+        case 1: H5Lcreate_soft("half", table.group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT); break;
+        case 2: H5Lcreate_soft(name.c_str(), table.group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT); break;
         case 3:
             H5Lcreate_external("good_raw.h5", "/raw/half", table.group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
             break;
-        case 4:
-            H5Lcreate_hard(table.group, "half", table.group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-            break;
-        default:
-            break;
+        case 4: H5Lcreate_hard(table.group, "half", table.group, name.c_str(), H5P_DEFAULT, H5P_DEFAULT); break;
+        default: break;
     }
 }
 

@@ -66,8 +66,7 @@ std::string config_of(const std::string& path) {
 }
 
 // What the reader says of three good rows that `change` has altered.
-template <class Change>
-std::string complaint_about_angles(Change change) {
+template <class Change> std::string complaint_about_angles(Change change) {
     const TemporaryFolder folder;
     const std::string path = folder.file("angles.h5");
     {
@@ -88,8 +87,7 @@ std::string complaint_about_angles(Change change) {
     });
 }
 
-template <class T>
-std::string complaint_of(const std::string& column, const std::vector<T>& values) {
+template <class T> std::string complaint_of(const std::string& column, const std::vector<T>& values) {
     return complaint_about_angles(
         [&](Hdf5File& file) { file.remove("/angles/" + column).column("/angles/" + column, values); });
 }

@@ -104,8 +104,7 @@ private:
         return *this;
     }
 
-    template <class T>
-    static hid_t hdf5_type() {
+    template <class T> static hid_t hdf5_type() {
         if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
         if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
         if constexpr (std::is_same_v<T, int>) return H5T_NATIVE_INT;

@@ -58,8 +58,7 @@ public:
     std::vector<core::AngleRow> rows;  // of all ticks, from first_tick on
 
 private:
-    template <class T>
-    Bytes bytes_of(const T& message) {
+    template <class T> Bytes bytes_of(const T& message) {
         const wire::Frame frame = frame_of(sender_, message);
         return {frame.view().begin(), frame.view().end()};
     }

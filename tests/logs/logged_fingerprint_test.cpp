@@ -50,8 +50,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Formats, LoggedFingerprint, testing::Values(".csv", ".h5"),
                          [](const auto& format) { return std::string{format.param}.substr(1); });
 
-template <class Reader, class Writer>
-void expect_read_back(Writer log, const std::string& path) {
+template <class Reader, class Writer> void expect_read_back(Writer log, const std::string& path) {
     constexpr std::int64_t n_rows = 50'000;  // several blocks of HDF5, more than a buffer of CSV
     write_rows(log, n_rows);
     log.set_fingerprint(digits);

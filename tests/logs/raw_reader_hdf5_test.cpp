@@ -25,8 +25,7 @@ Hdf5File& three_rows(Hdf5File& file) {
 }
 
 // What the reader says of three good rows that `change` has altered.
-template <class Change>
-std::string complaint_about_rows(Change change) {
+template <class Change> std::string complaint_about_rows(Change change) {
     const TemporaryFolder folder;
     const std::string path = folder.file("raw.h5");
     {
@@ -38,20 +37,17 @@ std::string complaint_about_rows(Change change) {
     return message.substr(std::min(message.find("raw.h5"), message.size()));
 }
 
-template <class Change>
-void refused(const char* why, Change change) {
+template <class Change> void refused(const char* why, Change change) {
     expect_contains(complaint_about_rows(change), why);
 }
 
-template <class T>
-std::string complaint_of(const std::string& column, const std::vector<T>& values) {
+template <class T> std::string complaint_of(const std::string& column, const std::vector<T>& values) {
     return complaint_about_rows(
         [&](Hdf5File& file) { file.remove("/raw/" + column).column("/raw/" + column, values); });
 }
 
 // Another column of three rows, of which `prepare` says how it is stored.
-template <class Prepare>
-void make_piezo(const Hdf5File& file, Prepare prepare, const hsize_t* limit = nullptr) {
+template <class Prepare> void make_piezo(const Hdf5File& file, Prepare prepare, const hsize_t* limit = nullptr) {
     const hsize_t size = 3;
     const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
     const hid_t space = H5Screate_simple(1, &size, limit);

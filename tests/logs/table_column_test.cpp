@@ -7,11 +7,9 @@
 
 namespace zlg::logs::table_column_test {
 
-template <class T>
-using Values = std::vector<T>;
+template <class T> using Values = std::vector<T>;
 
-template <class Table>
-std::vector<std::string> names_of() {
+template <class Table> std::vector<std::string> names_of() {
     std::vector<std::string> names;
     for_each_column<Table>([&](const auto& column, std::size_t k) {
         EXPECT_EQ(k, names.size());

@@ -12,8 +12,7 @@ struct Gyro {
     std::vector<double> rates, bridged;
     std::vector<std::int8_t> mode;
 
-    template <class Rate>
-    Gyro(int n_segments, Rate rate) {
+    template <class Rate> Gyro(int n_segments, Rate rate) {
         for (int k = 0; k < 2000 * n_segments; ++k) {
             const int segment = k / 2000;
             mode.push_back(segment % 2 == 0 ? 1 : -1);

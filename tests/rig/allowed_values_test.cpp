@@ -51,14 +51,10 @@ double draw(const Allowed& a, int k, std::mt19937_64& random) {
         return std::uniform_real_distribution<double>{from, to}(random);
     };
     switch (k < 2 ? k : std::uniform_int_distribution<int>{0, 6}(random)) {
-        case 0:
-            return a.min;
-        case 1:
-            return a.max;
-        case 2:
-            return a.zero || (a.min <= 0.0 && a.max >= 0.0) ? 0.0 : a.min;
-        default:
-            break;
+        case 0: return a.min;
+        case 1: return a.max;
+        case 2: return a.zero || (a.min <= 0.0 && a.max >= 0.0) ? 0.0 : a.min;
+        default: break;
     }
     // Any order of magnitude is as likely as another, those of a gyro more than others.
     for (;;) {
@@ -79,10 +75,8 @@ std::string value_of(const config::KeyInfo& key, int k, std::mt19937_64& random)
     switch (key.kind) {
         case ValueKind::choice:
         case ValueKind::optional_choice:
-        case ValueKind::choices:
-            return fmt::format("\"{}\"", pick(key.choices));
-        case ValueKind::text:
-            return "\"text\"";
+        case ValueKind::choices: return fmt::format("\"{}\"", pick(key.choices));
+        case ValueKind::text: return "\"text\"";
         case ValueKind::points: {
             const Allowed time{.min = -1e9, .max = 1e9}, value{.min = -1e6, .max = 1e6};
             std::vector<double> times;

@@ -5,8 +5,7 @@
 
 namespace zlg::fields_test {
 
-template <class Result>
-std::vector<std::string> names() {
+template <class Result> std::vector<std::string> names() {
     std::vector<std::string> all;
     study::for_each_field<Result>([&](const char* name, auto) { all.emplace_back(name); });
     return all;

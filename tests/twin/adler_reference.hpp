@@ -17,8 +17,7 @@ struct AdlerRamp {
     double duration_s = 0.0;
 };
 
-template <class Stepper>
-double adler_steps(const AdlerRamp& r, double start_turns, int n) {
+template <class Stepper> double adler_steps(const AdlerRamp& r, double start_turns, int n) {
     using State = std::array<double, 1>;
     constexpr double tau = 2.0 * std::numbers::pi;
     const double lock = tau * std::abs(r.coupling);

@@ -214,8 +214,7 @@ TEST(FourWave, AWeakFieldGivesTheBiasOfTheVoigtSlope) {
 }
 
 // The n-th derivative by x of int W(v) K(x - v) dv, n = 0..3, all of it on the Maxwell distribution.
-template <class Kernel>
-double maxwell(int n, double x, const Kernel& kernel) {
+template <class Kernel> double maxwell(int n, double x, const Kernel& kernel) {
     constexpr double h = 1e-3;
     double sum = 0.0;
     for (int k = -8000; k <= 8000; ++k) {
@@ -235,8 +234,7 @@ struct EvenGas {
 
     [[nodiscard]] double lorentz(double u) const { return y * y / (y * y + u * u); }
 
-    template <class Kernel>
-    [[nodiscard]] double both(int n, double x, const Kernel& kernel) const {
+    template <class Kernel> [[nodiscard]] double both(int n, double x, const Kernel& kernel) const {
         return 0.5 * (maxwell(n, x - line, kernel) + maxwell(n, x + line, kernel));
     }
 };

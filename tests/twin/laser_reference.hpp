@@ -58,8 +58,7 @@ private:
     };
 
     // f averaged over velocities and isotopes; f(distance of the wave from isotope k's line, Doppler shift).
-    template <class F>
-    [[nodiscard]] double averaged(const F& f) const {
+    template <class F> [[nodiscard]] double averaged(const F& f) const {
         const double ku = c_.doppler_half_width_hz;
         const double share[2] = {c_.upper_isotope_ratio, 1.0 - c_.upper_isotope_ratio};
         const double line_hz[2] = {0.5 * c_.isotope_shift_hz, -0.5 * c_.isotope_shift_hz};

@@ -8,8 +8,7 @@ double maxwell(double v) { return std::exp(-v * v) * std::numbers::inv_sqrtpi; }
 
 double lorentzian(double v, double centre, double y) { return y * y / (y * y + (v - centre) * (v - centre)); }
 
-template <class F>
-double averaged(const F& f) {
+template <class F> double averaged(const F& f) {
     return integral([&](double v) { return maxwell(v) * f(v); }, -7.0, 7.0, 1e-13);
 }
 

@@ -21,8 +21,7 @@ double simpson_piece(const F& f, double a, double fa, double b, double fb, doubl
 }
 
 // int_a^b f, to about `tolerance`; cut into 64 pieces first, so that no narrow peak is overlooked.
-template <class F>
-double integral(const F& f, double a, double b, double tolerance) {
+template <class F> double integral(const F& f, double a, double b, double tolerance) {
     double sum = 0.0;
     for (int k = 0; k < 64; ++k) {
         const double from = a + (b - a) * k / 64.0;

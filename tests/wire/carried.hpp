@@ -7,8 +7,7 @@
 
 namespace zlg::wire {
 
-template <class T>
-std::vector<std::uint8_t> body_of(const T& message) {
+template <class T> std::vector<std::uint8_t> body_of(const T& message) {
     Sender sender;
     const Frame frame = frame_of(sender, message);
     Receiver receiver;

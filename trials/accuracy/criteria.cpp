@@ -59,8 +59,7 @@ void add_relock(const Accuracy& accuracy, std::vector<Criterion>& out) {
 }
 
 // rms over the axes of what `of` gives of each.
-template <class Of>
-double pooled(const RecordingFigures& r, const Of& of) {
+template <class Of> double pooled(const RecordingFigures& r, const Of& of) {
     double sum = 0.0;
     for (const AxisFigures& a : r.axes) sum += of(a) * of(a);
     return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, r.axes.size())));

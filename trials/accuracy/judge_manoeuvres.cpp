@@ -27,8 +27,7 @@ struct Family {
         return find_method(f.methods, method_name::automatic)->whole;
     }
     // Mean over all gaps of what `of` gives of a kind.
-    template <class Of>
-    [[nodiscard]] double mean(const Of& of) const {
+    template <class Of> [[nodiscard]] double mean(const Of& of) const {
         double sum = 0.0;
         for (const ManoeuvreFigures* k : kinds) sum += static_cast<double>(ours(*k).n) * of(*k);
         return sum / n();

@@ -42,14 +42,10 @@ double start_of(const Manoeuvre& m, const GyroLaw& law, chance::Draw& draw) {
     const double gap_s = law.tick_s * law.gap_ticks;
     const double beside_s = place_ticks * law.tick_s * draw.uniform();
     switch (m.place) {
-        case ManoeuvrePlace::ended:
-            return -beside_s - m.duration_s;
-        case ManoeuvrePlace::before:
-            return -beside_s;
-        case ManoeuvrePlace::in:
-            return gap_s * beside_s / (place_ticks * law.tick_s);
-        case ManoeuvrePlace::after:
-            break;
+        case ManoeuvrePlace::ended: return -beside_s - m.duration_s;
+        case ManoeuvrePlace::before: return -beside_s;
+        case ManoeuvrePlace::in: return gap_s * beside_s / (place_ticks * law.tick_s);
+        case ManoeuvrePlace::after: break;
     }
     return gap_s + beside_s;
 }

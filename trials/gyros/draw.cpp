@@ -119,10 +119,8 @@ private:
     void set(const Range& r) {
         chance::Draw draw = draws_.of(r.key);
         switch (r.law) {
-            case Law::even:
-                return set(r.key, draw.within(r.least, r.most));
-            case Law::logarithmic:
-                return set(r.key, draw.within_log(r.least, r.most));
+            case Law::even: return set(r.key, draw.within(r.least, r.most));
+            case Law::logarithmic: return set(r.key, draw.within_log(r.least, r.most));
             case Law::either_sign: {
                 const double sign = draw.sign();
                 return set(r.key, sign * draw.within_log(r.least, r.most));
@@ -142,14 +140,12 @@ private:
     [[nodiscard]] bool is_one_in(std::size_t n, std::string_view choice) const {
         return draws_.of(choice).is_one_in(n);
     }
-    template <std::size_t n>
-    void set(const Range (&ranges)[n]) {
+    template <std::size_t n> void set(const Range (&ranges)[n]) {
         for (const Range& r : ranges) set(r);
     }
 
     // A name that stands there twice is drawn twice as often.
-    template <std::size_t n>
-    void set_one_of(std::string_view key, const std::array<const char*, n>& names) {
+    template <std::size_t n> void set_one_of(std::string_view key, const std::array<const char*, n>& names) {
         set(key, std::string{draws_.of(key).one_of(names)});
     }
 

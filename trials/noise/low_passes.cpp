@@ -88,17 +88,10 @@ LowPass low_pass(LowPassKind kind, double cut_hz) {
     // 1/(2 cos 67.5 deg).
     LowPass f;
     switch (kind) {
-        case LowPassKind::none:
-            return f;
-        case LowPassKind::exponential:
-            f.sections = {exponential(cut_hz)};
-            break;
-        case LowPassKind::butterworth_1:
-            f.sections = {butterworth_1(cut_hz)};
-            break;
-        case LowPassKind::butterworth_2:
-            f.sections = {butterworth_2(cut_hz, std::sqrt(0.5))};
-            break;
+        case LowPassKind::none: return f;
+        case LowPassKind::exponential: f.sections = {exponential(cut_hz)}; break;
+        case LowPassKind::butterworth_1: f.sections = {butterworth_1(cut_hz)}; break;
+        case LowPassKind::butterworth_2: f.sections = {butterworth_2(cut_hz, std::sqrt(0.5))}; break;
         case LowPassKind::butterworth_4:
             f.sections = {butterworth_2(cut_hz, 0.5 / maths::cos(pi / 8.0)),
                           butterworth_2(cut_hz, 0.5 / maths::cos(3.0 * pi / 8.0))};
@@ -106,9 +99,7 @@ LowPass low_pass(LowPassKind kind, double cut_hz) {
         case LowPassKind::two_exponentials:
             f.sections.assign(2, exponential(cut_hz / std::sqrt(std::numbers::sqrt2 - 1.0)));
             break;
-        case LowPassKind::moving_average:
-            f.taps = boxcar(length_of(0.443, cut_hz));
-            break;
+        case LowPassKind::moving_average: f.taps = boxcar(length_of(0.443, cut_hz)); break;
         case LowPassKind::two_moving_averages:
             f.taps = convolved(boxcar(length_of(0.319, cut_hz)), boxcar(length_of(0.319, cut_hz)));
             break;
@@ -116,9 +107,7 @@ LowPass low_pass(LowPassKind kind, double cut_hz) {
             f.held = length_of(0.443, cut_hz);
             f.taps = boxcar(f.held);
             break;
-        case LowPassKind::hann:
-            f.taps = hann(length_of(0.72, cut_hz));
-            break;
+        case LowPassKind::hann: f.taps = hann(length_of(0.72, cut_hz)); break;
     }
     f.bandwidth_hz = bandwidth_of(f);
     return f;

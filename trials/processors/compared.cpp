@@ -4,8 +4,7 @@
 
 namespace zlg::trials {
 
-template <class Output>
-void ComparedProcessor::compare(const Output& here, const Output& there) {
+template <class Output> void ComparedProcessor::compare(const Output& here, const Output& there) {
     hash_.add(here);
     const std::string name = trials::first_difference(here, there);
     if (name.empty()) return;

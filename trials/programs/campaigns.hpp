@@ -27,8 +27,7 @@ Work events(CLI::App& app);
 Work maths(CLI::App& app);
 
 // Of every campaign that draws and has threads: the threads change no figure.
-template <class Task>
-void add_seed_and_threads(CLI::App& app, Task& task) {
+template <class Task> void add_seed_and_threads(CLI::App& app, Task& task) {
     app.add_option("--seed", task.seed, "of all that is drawn");
     app.add_option("--threads", task.threads)->check(CLI::PositiveNumber);
 }

@@ -39,16 +39,11 @@ double mean_square(LoopShape shape, double start_ticks) {
 
 double detuning_ratio(LoopShape shape, double t) {
     switch (shape) {
-        case LoopShape::exponential:
-            return core::maths::exp(-t / 3.5);
-        case LoopShape::slew:
-            return slewed(t);
-        case LoopShape::second_order:
-            return (1.0 + t / 1.05) * core::maths::exp(-t / 1.05);
-        case LoopShape::underdamped:
-            return underdamped(t);
-        case LoopShape::dead_time:
-            return slewed(std::max(0.0, t - 0.6));
+        case LoopShape::exponential: return core::maths::exp(-t / 3.5);
+        case LoopShape::slew: return slewed(t);
+        case LoopShape::second_order: return (1.0 + t / 1.05) * core::maths::exp(-t / 1.05);
+        case LoopShape::underdamped: return underdamped(t);
+        case LoopShape::dead_time: return slewed(std::max(0.0, t - 0.6));
     }
     return 0.0;
 }

@@ -44,8 +44,7 @@ void warn_of_absent(const ConvertOptions& options, const config::Settings& setti
 }
 
 // Every row, into any copy of it; how many there were.
-template <class Row, class Reader, class Write>
-std::int64_t copy_rows(Reader& log, const Write& write) {
+template <class Row, class Reader, class Write> std::int64_t copy_rows(Reader& log, const Write& write) {
     Progress progress;
     Row row;
     std::int64_t rows = 0;
@@ -59,8 +58,7 @@ std::int64_t copy_rows(Reader& log, const Write& write) {
     return rows;
 }
 
-template <class Copy>
-std::int64_t copy_raw(const ConvertOptions& options, logs::RawReader& raw, Copy& copy) {
+template <class Copy> std::int64_t copy_raw(const ConvertOptions& options, logs::RawReader& raw, Copy& copy) {
     const std::int64_t rows =
         copy_rows<core::HalfRecord>(raw, [&](const core::HalfRecord& record) { copy.write(record, raw.light()); });
     if (!raw.line_is_ended())

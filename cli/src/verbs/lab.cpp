@@ -71,17 +71,13 @@ std::unique_ptr<RecordSource> opened(const LabFollowOptions& options) {
     std::error_code no_such_file;  // then the source is a device or an address
     if (std::filesystem::is_regular_file(options.source, no_such_file)) {
         switch (logs::recognise(options.source)) {
-            case logs::LogKind::raw_hdf5:
-                return raw_source(options);
-            case logs::LogKind::angle_hdf5:
-                refuse_settings(options, "an angle log");
-                return angle_source(options);
+            case logs::LogKind::raw_hdf5: return raw_source(options);
+            case logs::LogKind::angle_hdf5: refuse_settings(options, "an angle log"); return angle_source(options);
             case logs::LogKind::raw_csv:
             case logs::LogKind::angle_csv:
                 throw UsageError{fmt::format(
                     "--follow: {} is a CSV log; allowed is HDF5, which can be read while it grows", options.source)};
-            case logs::LogKind::unknown:
-                break;
+            case logs::LogKind::unknown: break;
         }
     }
     refuse_settings(options, "a gyro's line");

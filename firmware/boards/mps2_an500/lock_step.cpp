@@ -35,23 +35,16 @@ void start_stored(Exchange& x) noexcept {
 
 void answer(Exchange& x) noexcept {
     switch (x.request) {
-        case Request::none:
-            break;
-        case Request::start:
-            start_by(x);
-            break;
-        case Request::start_stored:
-            start_stored(x);
-            break;
+        case Request::none: break;
+        case Request::start: start_by(x); break;
+        case Request::start_stored: start_stored(x); break;
         case Request::half:
             pend_irq(half_timer_irq);
             barrier();
             x.output = last_half();
             gyro().work();
             break;
-        case Request::drain:
-            x.drained = gyro().drain();
-            break;
+        case Request::drain: x.drained = gyro().drain(); break;
         case Request::state:
             x.state = gyro().state();
             x.stack_used_bytes = port::stack_used_bytes();

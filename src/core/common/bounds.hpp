@@ -5,8 +5,7 @@
 
 namespace zlg::core {
 
-template <class Number>
-[[nodiscard]] constexpr Number limited(Number x, Number limit) noexcept {
+template <class Number> [[nodiscard]] constexpr Number limited(Number x, Number limit) noexcept {
     if (x > limit) return limit;
     return x < -limit ? -limit : x;
 }

@@ -48,8 +48,7 @@ constexpr double far_sq = 9.0;
 constexpr double wander = 1e-5;
 
 // h^T x of the states; M is not observed.
-template <class Vector>
-double product(const MagneticVector& h, const Vector& x) noexcept {
+template <class Vector> double product(const MagneticVector& h, const Vector& x) noexcept {
     return h[of_base] * x[of_base] + h[of_drift] * x[of_drift] + h[of_trend] * x[of_trend];
 }
 

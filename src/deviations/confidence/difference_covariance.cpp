@@ -46,20 +46,13 @@ double continuous_covariance(double t, int noise) {
     const double u = std::abs(t), u2 = u * u;
     if (u == 0.0) return 0.0;
     switch (noise) {
-        case 2:
-            return -u;
-        case 1:
-            return u2 * std::log(u);
-        case 0:
-            return u2 * u;
-        case -1:
-            return -u2 * u2 * std::log(u);
-        case -2:
-            return -u2 * u2 * u;
-        case -3:
-            return u2 * u2 * u2 * std::log(u);
-        default:
-            return u2 * u2 * u2 * u;
+        case 2: return -u;
+        case 1: return u2 * std::log(u);
+        case 0: return u2 * u;
+        case -1: return -u2 * u2 * std::log(u);
+        case -2: return -u2 * u2 * u;
+        case -3: return u2 * u2 * u2 * std::log(u);
+        default: return u2 * u2 * u2 * u;
     }
 }
 

@@ -14,8 +14,7 @@ constexpr std::int64_t block_starts = 4096;
 constexpr std::int64_t chunk_starts = 16 * block_starts;  // of one thread
 
 // Of the angle, between entries m apart.
-template <int order>
-ZLG_INLINE double difference(const double* a, std::int64_t m, std::int64_t i) {
+template <int order> ZLG_INLINE double difference(const double* a, std::int64_t m, std::int64_t i) {
     const double* b = a + m;
     const double* c = b + m;
     const double middle = c[i] - b[i];
@@ -25,8 +24,7 @@ ZLG_INLINE double difference(const double* a, std::int64_t m, std::int64_t i) {
         return (((c + m)[i] - c[i]) - middle) - (middle - (b[i] - a[i]));
 }
 
-template <int order>
-ZLG_INLINE double squares(const double* a, std::int64_t m, std::int64_t n) {
+template <int order> ZLG_INLINE double squares(const double* a, std::int64_t m, std::int64_t n) {
     return lane_sum(
         n, [=](std::int64_t i) __attribute__((always_inline)) {
             const double d = difference<order>(a, m, i);
@@ -34,8 +32,7 @@ ZLG_INLINE double squares(const double* a, std::int64_t m, std::int64_t n) {
         });
 }
 
-template <int order>
-ZLG_INLINE TermSum squares_of_known(const double* a, std::int64_t m, std::int64_t n) {
+template <int order> ZLG_INLINE TermSum squares_of_known(const double* a, std::int64_t m, std::int64_t n) {
     const auto sums = lane_sums(
         n, [=](std::int64_t i, double& square, double& one) __attribute__((always_inline)) {
             const double d = difference<order>(a, m, i);

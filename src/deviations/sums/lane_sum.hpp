@@ -27,8 +27,7 @@ ZLG_INLINE double tree_sum(const double* lane) {
 }
 
 // Sum of term(0) ... term(n - 1).
-template <class Term>
-ZLG_INLINE double lane_sum(std::int64_t n, const Term& term) {
+template <class Term> ZLG_INLINE double lane_sum(std::int64_t n, const Term& term) {
     alignas(64) double lane[lanes] = {};
     const std::int64_t whole = n - n % lanes;
     for (std::int64_t i = 0; i < whole; i += lanes)
@@ -38,8 +37,7 @@ ZLG_INLINE double lane_sum(std::int64_t n, const Term& term) {
 }
 
 // Two sums of one pass: term(i, first, second) sets what is to be added.
-template <class Term>
-ZLG_INLINE std::array<double, 2> lane_sums(std::int64_t n, const Term& term) {
+template <class Term> ZLG_INLINE std::array<double, 2> lane_sums(std::int64_t n, const Term& term) {
     alignas(64) double lane[lanes] = {}, other[lanes] = {};
     const auto add = [&](std::int64_t i, std::int64_t k) __attribute__((always_inline)) {
         double first = 0.0, second = 0.0;

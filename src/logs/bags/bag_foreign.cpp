@@ -35,8 +35,7 @@ struct ImuRows {
     std::vector<std::size_t> columns = {0, 1};  // of `bag_columns`; further the rates that the sensor measures
 
     // Calls take(row) with the messages of the sensor, at most so many.
-    template <class Take>
-    void read(std::uint64_t n, Take take) const {
+    template <class Take> void read(std::uint64_t n, Take take) const {
         struct Enough {};
         try {
             (void)read_bag(path, [&](const BagMessage& message) {

@@ -26,8 +26,7 @@ public:
         return taken;
     }
 
-    template <class Number>
-    Number number(bool is_swapped = false) {
+    template <class Number> Number number(bool is_swapped = false) {
         std::array<char, sizeof(Number)> raw;
         std::ranges::copy(bytes(raw.size()), raw.begin());
         if (is_swapped) std::ranges::reverse(raw);
@@ -43,8 +42,7 @@ private:
     std::string_view rest_;
 };
 
-template <class Number>
-void put(std::string& out, Number number) {
+template <class Number> void put(std::string& out, Number number) {
     out.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 

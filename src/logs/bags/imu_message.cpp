@@ -26,8 +26,7 @@ public:
         size_ = fields_.left();
     }
 
-    template <class Number>
-    Number number() {
+    template <class Number> Number number() {
         const std::size_t at = size_ - fields_.left();
         if (is_cdr_) (void)fields_.bytes((sizeof(Number) - at % sizeof(Number)) % sizeof(Number));
         return fields_.number<Number>(is_swapped_);

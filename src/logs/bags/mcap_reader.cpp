@@ -56,22 +56,14 @@ private:
         if (has_all_ && (kind == mcap_message || kind == mcap_chunk))
             fail("holds messages behind the end of the data; allowed is the index");
         switch (kind) {
-            case mcap_schema:
-                return take_schema(head_of(in, size));
-            case mcap_channel:
-                return take_channel(head_of(in, size));
-            case mcap_message:
-                return take_data(in, size);
-            case mcap_chunk:
-                return take_records(in, size);
-            case mcap_statistics:
-                return take_statistics(head_of(in, size));
-            case mcap_data_end:
-                return take_data_end(in, size, crc_before);
-            case mcap_footer:
-                return take_footer(in, size);
-            default:
-                break;
+            case mcap_schema: return take_schema(head_of(in, size));
+            case mcap_channel: return take_channel(head_of(in, size));
+            case mcap_message: return take_data(in, size);
+            case mcap_chunk: return take_records(in, size);
+            case mcap_statistics: return take_statistics(head_of(in, size));
+            case mcap_data_end: return take_data_end(in, size, crc_before);
+            case mcap_footer: return take_footer(in, size);
+            default: break;
         }
         in.skip(size);
     }

@@ -39,8 +39,7 @@ public:
         if (found == values_.end()) throw Damaged(fmt::format("has no field '{}'", name));
         return found->second;
     }
-    template <class Number>
-    [[nodiscard]] Number number(const char* name) const {
+    template <class Number> [[nodiscard]] Number number(const char* name) const {
         const std::string value = text(name);
         if (value.size() != sizeof(Number))
             throw Damaged(
@@ -83,20 +82,15 @@ private:
         if (is_in_index && (kind == rosbag_message || kind == rosbag_chunk))
             fail("holds messages behind the beginning of the index; allowed are connections");
         switch (kind) {
-            case rosbag_message:
-                return take_data(in, header, size);
+            case rosbag_message: return take_data(in, header, size);
             case rosbag_chunk:
                 return take_chunk(header.text("compression"), size, header.number<std::uint32_t>("size"), 0);
-            case rosbag_connection:
-                return take_connection(header, in.take(size));
-            case rosbag_header:
-                index_at_ = header.number<std::uint64_t>("index_pos");
-                break;
+            case rosbag_connection: return take_connection(header, in.take(size));
+            case rosbag_header: index_at_ = header.number<std::uint64_t>("index_pos"); break;
             case rosbag_index:
                 said_counts[header.number<std::uint32_t>("conn")] += header.number<std::uint32_t>("count");
                 break;
-            default:
-                break;
+            default: break;
         }
         in.skip(size);
     }

@@ -19,8 +19,7 @@ void complete_header(const CsvReader& csv, const std::string& path, RawHeader& h
     if (header.has_edge_offset) header.timer_hz = take_timer_hz(header.settings, std::nullopt, path);
 }
 
-template <class Table>
-class CsvSource final : public LogSource<Table> {
+template <class Table> class CsvSource final : public LogSource<Table> {
 public:
     explicit CsvSource(const std::string& path) : csv_{path, known_columns<Table>} {
         this->header_.settings = csv_.settings();
@@ -50,8 +49,7 @@ private:
     CsvReader csv_;
 };
 
-template <class Table>
-class CsvSink final : public LogSink<Table> {
+template <class Table> class CsvSink final : public LogSink<Table> {
 public:
     CsvSink(const std::string& path, bool force, const Settings& settings, const typename Table::Presence& columns,
             const CsvOptions& options)
@@ -95,8 +93,7 @@ private:
 
 }  // namespace
 
-template <class Table>
-std::unique_ptr<LogSource<Table>> open_csv(const std::string& path) {
+template <class Table> std::unique_ptr<LogSource<Table>> open_csv(const std::string& path) {
     return std::make_unique<CsvSource<Table>>(path);
 }
 template std::unique_ptr<LogSource<RawTable>> open_csv(const std::string&);

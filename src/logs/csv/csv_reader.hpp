@@ -38,8 +38,7 @@ public:
     [[nodiscard]] double fraction_read() const { return lines_.fraction_read(); }
 
     // The value of a column of this row. errors  FormatError: it is no number, or the rule does not allow it.
-    template <class T, class Rule>
-    [[nodiscard]] T value(std::size_t column, const Rule& rule) const {
+    template <class T, class Rule> [[nodiscard]] T value(std::size_t column, const Rule& rule) const {
         if constexpr (std::is_integral_v<T>) {
             const std::optional<std::int64_t> number = integer(column);
             if (!number) fail_integer(column, rule.allowed());

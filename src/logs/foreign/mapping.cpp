@@ -106,16 +106,12 @@ bool takes(const Key& key, const std::string& value) {
         case Takes::word:
             if (key.name == "unit" || key.name == "table_unit") return unit_named(value).has_value();
             return key.allowed.empty() ? !value.empty() || key.name == "comment" : is_listed(key.allowed, value);
-        case Takes::positive:
-            return number && *number > 0.0;
-        case Takes::whole:
-            return number && *number >= 0.0 && *number == std::floor(*number) && *number <= 1e6;
-        case Takes::real:
-            return number.has_value();
+        case Takes::positive: return number && *number > 0.0;
+        case Takes::whole: return number && *number >= 0.0 && *number == std::floor(*number) && *number <= 1e6;
+        case Takes::real: return number.has_value();
         case Takes::column:
         case Takes::columns:
-        case Takes::raw_column:
-            break;
+        case Takes::raw_column: break;
     }
     if (key.takes == Takes::raw_column && is_fixed(value)) return fixed_value(value).has_value();
     return !value.empty();

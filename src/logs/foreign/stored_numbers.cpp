@@ -85,8 +85,7 @@ std::string Piece::text(std::size_t at, std::size_t n) const {
 
 namespace {
 
-template <class Number>
-Number swapped(Number number) {
+template <class Number> Number swapped(Number number) {
     std::array<char, sizeof number> bytes;
     std::memcpy(bytes.data(), &number, sizeof number);
     std::ranges::reverse(bytes);
@@ -95,29 +94,18 @@ Number swapped(Number number) {
 }
 
 // Calls use(Number{}) with a number of the type.
-template <class Use>
-void with(NumberType type, Use use) {
+template <class Use> void with(NumberType type, Use use) {
     switch (type) {
-        case NumberType::i1:
-            return use(std::int8_t{});
-        case NumberType::u1:
-            return use(std::uint8_t{});
-        case NumberType::i2:
-            return use(std::int16_t{});
-        case NumberType::u2:
-            return use(std::uint16_t{});
-        case NumberType::i4:
-            return use(std::int32_t{});
-        case NumberType::u4:
-            return use(std::uint32_t{});
-        case NumberType::i8:
-            return use(std::int64_t{});
-        case NumberType::u8:
-            return use(std::uint64_t{});
-        case NumberType::f4:
-            return use(float{});
-        case NumberType::f8:
-            return use(double{});
+        case NumberType::i1: return use(std::int8_t{});
+        case NumberType::u1: return use(std::uint8_t{});
+        case NumberType::i2: return use(std::int16_t{});
+        case NumberType::u2: return use(std::uint16_t{});
+        case NumberType::i4: return use(std::int32_t{});
+        case NumberType::u4: return use(std::uint32_t{});
+        case NumberType::i8: return use(std::int64_t{});
+        case NumberType::u8: return use(std::uint64_t{});
+        case NumberType::f4: return use(float{});
+        case NumberType::f8: return use(double{});
     }
 }
 

@@ -28,8 +28,7 @@ struct Step {
     [[nodiscard]] double rows() const { return static_cast<double>(to - from); }
 };
 
-template <class Use>
-void each_step(const LongColumn& values, Use use) {
+template <class Use> void each_step(const LongColumn& values, Use use) {
     std::size_t last = 0;
     for (std::size_t k = 1; k < values.size(); ++k) {
         if (std::isnan(values[k])) continue;
@@ -264,8 +263,7 @@ std::string stretches(const TextColumn& column, const Steps& steps, const Rails&
         n_stretches == 1 ? std::string{} : fmt::format("; {} such stretches hold {} rows", n_stretches, n_rows));
 }
 
-template <class Values>
-std::string spikes_of(const Values& values, const std::string& what) {
+template <class Values> std::string spikes_of(const Values& values, const std::string& what) {
     constexpr double far = 100.0;
     constexpr std::size_t longest = 8, longest_of_one_value = 32;
     const double least = far * usual_step(values, 0.5, size_but_0);

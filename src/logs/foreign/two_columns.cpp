@@ -31,8 +31,7 @@ bool all_whole(const std::vector<double>& values) {
 }
 
 // What is taken off, the first second, for a double holds no nanoseconds since 1970.
-template <class Values>
-double join(Values& whole, const Values& part, double parts) {
+template <class Values> double join(Values& whole, const Values& part, double parts) {
     const double first = whole.empty() ? 0.0 : whole.front();
     Values both;
     for (std::size_t k = 0; k < whole.size(); ++k) both.push_back(whole[k] - first + part[k] / parts);

@@ -82,8 +82,7 @@ std::string without_factor(std::string_view text) {
     return unit.substr(begin, unit.find_last_not_of("eExX/_") + 1 - begin);
 }
 
-template <class Reads>
-std::optional<AngleUnit> first_unit(std::string_view name, const Reads& reads) {
+template <class Reads> std::optional<AngleUnit> first_unit(std::string_view name, const Reads& reads) {
     for (const std::string_view place : unit_places(name))
         if (const auto unit = reads(place)) return unit;
     return std::nullopt;

@@ -66,8 +66,7 @@ struct AddColumn {
     std::string path;
 
     [[nodiscard]] Handle line(hsize_t n) const { return made(H5Screate_simple(1, &n, nullptr), &H5Sclose); }
-    template <class T>
-    [[nodiscard]] Handle operator()(const std::vector<T>& values) const {
+    template <class T> [[nodiscard]] Handle operator()(const std::vector<T>& values) const {
         return add_set(file, path, std::is_same_v<T, double> ? H5T_IEEE_F64LE : H5T_STD_I64LE, line(values.size()),
                        values.data());
     }
@@ -124,8 +123,7 @@ struct ColumnReader::State {
     hdf5::Source source;
     std::string group;
 
-    template <class T>
-    [[nodiscard]] std::vector<T> numbers(const std::string& name) const {
+    template <class T> [[nodiscard]] std::vector<T> numbers(const std::string& name) const {
         const hdf5::DataSet set{source, require_there(name), {.is_integer = !std::is_floating_point_v<T>}};
         if (set.rows() > max_rows)
             source.fail(set.path(), fmt::format("has {} rows; allowed are {}", set.rows(), max_rows));

@@ -103,8 +103,7 @@ private:
     mutable hsize_t checked_until_ = 0;  // where the chunk ends that was read last
 };
 
-template <class T>
-class Column : public DataSet {
+template <class T> class Column : public DataSet {
 public:
     Column() = default;
     Column(const Source& source, std::string path, int max_width = 0)

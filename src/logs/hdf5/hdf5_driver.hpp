@@ -14,8 +14,7 @@ namespace zlg::logs::hdf5 {
 inline constexpr haddr_t max_address = (haddr_t{1} << 62) - 1;
 
 // What the library hands to every call of the driver; its own part comes first.
-template <class Subject>
-struct DriverFile {
+template <class Subject> struct DriverFile {
     H5FD_t library_part;
     Subject subject;
     haddr_t end_of_allocation;
@@ -25,8 +24,7 @@ struct DriverFile {
 };
 
 // A driver that opens and closes files; how they are read and written is left to be filled in.
-template <class Subject>
-H5FD_class_t driver_of(const char* name, H5F_close_degree_t close_degree) {
+template <class Subject> H5FD_class_t driver_of(const char* name, H5F_close_degree_t close_degree) {
     using File = DriverFile<Subject>;
     H5FD_class_t driver{};
 #ifdef H5FD_CLASS_VERSION  // since HDF5 1.14, which knows its own drivers by low numbers
@@ -58,8 +56,7 @@ H5FD_class_t driver_of(const char* name, H5F_close_degree_t close_degree) {
 }
 
 // File access properties for a file of the subject. errors  IoError.
-template <class Subject>
-Handle access_of(hid_t driver, const Subject& subject) {
+template <class Subject> Handle access_of(hid_t driver, const Subject& subject) {
     Handle access{H5Pcreate(H5P_FILE_ACCESS), &H5Pclose};
     if (driver < 0 || H5Pset_driver(access.get(), driver, &subject) < 0)
         throw IoError("the HDF5 library refuses the driver of a log: " + last_failure().reason);

@@ -34,8 +34,7 @@ private:
     Closer closer_ = nullptr;
 };
 
-template <class T>
-hid_t memory_type() {
+template <class T> hid_t memory_type() {
     if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
     if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
     if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;

@@ -68,8 +68,7 @@ bool is_one_value(hid_t space) { return H5Sget_simple_extent_npoints(space) == 1
 std::string up_to_nul(const char* text, std::size_t size) { return {text, ::strnlen(text, size)}; }
 
 // `read(type, buffer)` fetches the value.
-template <class Read>
-std::optional<std::string> read_text(const Handle& type, const Handle& space, Read read) {
+template <class Read> std::optional<std::string> read_text(const Handle& type, const Handle& space, Read read) {
     if (H5Tget_class(type.get()) != H5T_STRING || !is_one_value(space.get())) return std::nullopt;
     if (H5Tis_variable_str(type.get()) > 0) {
         char* letters = nullptr;

@@ -54,8 +54,7 @@ public:
 
     // Reads the block of a column and judges it, if the log has the column. With several values in a row, which only
     // columns of reals have, the rule does not ask for the number of the row.
-    template <class T, class Rule>
-    void take(Column<T>& column, const Rule& rule) {
+    template <class T, class Rule> void take(Column<T>& column, const Rule& rule) {
         if (!column.is_open()) return;
         const std::size_t width = column.width();
         const std::size_t whole = read(column) * width;
@@ -86,8 +85,7 @@ public:
 private:
     // Reads the good rows, or those before the first that cannot be read; returns how many are integers of type T. A
     // read fails as a whole; ever smaller pieces lead to the first row that cannot be read.
-    template <class T>
-    std::size_t read(Column<T>& column) {
+    template <class T> std::size_t read(Column<T>& column) {
         const std::size_t asked = good_rows_;
         std::size_t readable = 0, fitting = 0;
         for (std::size_t piece = asked; piece > 0;) {
@@ -114,8 +112,7 @@ private:
 };
 
 // The rows of an HDF5 log: blocks of them are read, checked and handed out row by row.
-template <class Table>
-class TableSource : public LogSource<Table> {
+template <class Table> class TableSource : public LogSource<Table> {
 public:
     bool next(typename Table::Row& row) override {
         if (n_handed_out_ == block_.good_rows() && !next_block()) return false;
@@ -162,12 +159,10 @@ protected:
     }
 
     // Opens a column, if the log has it. It must stay where it is as long as the source lives.
-    template <class T>
-    void open(std::size_t column, const char* name, Column<T>& opened, int max_width = 0) {
+    template <class T> void open(std::size_t column, const char* name, Column<T>& opened, int max_width = 0) {
         if (has(column)) add({source_, fmt::format("{}/{}", Table::group, name), max_width}, opened);
     }
-    template <class T>
-    void add(Column<T>&& found, Column<T>& opened) {
+    template <class T> void add(Column<T>&& found, Column<T>& opened) {
         opened = std::move(found);
         opened_.push_back(&opened);
     }

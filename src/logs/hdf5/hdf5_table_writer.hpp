@@ -48,8 +48,7 @@ public:
     }
 
     // Room for block_rows rows of T, which stays as long as the writer.
-    template <class T>
-    T* add_buffer(std::size_t width = 1) {
+    template <class T> T* add_buffer(std::size_t width = 1) {
         buffers_.push_back(std::make_unique<std::byte[]>(block_rows * width * sizeof(T)));
         return reinterpret_cast<T*>(buffers_.back().get());
     }
@@ -113,11 +112,9 @@ private:
 };
 
 // What the sinks of both logs share: rows are gathered column by column, and appended when a block is full.
-template <class T>
-using Buffer = T*;
+template <class T> using Buffer = T*;
 
-template <class Table>
-class TableSink : public LogSink<Table> {
+template <class Table> class TableSink : public LogSink<Table> {
 public:
     // options  RawWriterOptions or AngleWriterOptions.
     template <class Options>

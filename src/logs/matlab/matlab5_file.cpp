@@ -21,8 +21,7 @@ enum DataType : std::uint32_t {
 };
 enum MatrixClass : std::uint32_t { class_char = 4, class_double = 6 };
 
-template <class Number>
-constexpr DataType type_of() {
+template <class Number> constexpr DataType type_of() {
     if constexpr (std::same_as<Number, std::int8_t>) return type_int8;
     if constexpr (std::same_as<Number, std::uint8_t>) return type_uint8;
     if constexpr (std::same_as<Number, std::int32_t>) return type_int32;
@@ -33,8 +32,7 @@ constexpr DataType type_of() {
 
 constexpr std::size_t padded(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
 
-template <class Number>
-std::string_view bytes_of(std::span<const Number> values) {
+template <class Number> std::string_view bytes_of(std::span<const Number> values) {
     return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
@@ -84,8 +82,7 @@ Matlab5File::Matlab5File(const std::string& path, bool force) : file_{path, forc
     file_.append(bytes_of(std::span<const std::uint16_t>{version}));
 }
 
-template <class Number>
-void Matlab5File::add(std::string_view name, std::span<const Number> values, std::size_t rows) {
+template <class Number> void Matlab5File::add(std::string_view name, std::span<const Number> values, std::size_t rows) {
     add_matrix(name, class_double, rows, rows == 0 ? 0 : values.size() / rows, type_of<Number>(), bytes_of(values));
 }
 

@@ -24,8 +24,7 @@ public:
     // MATLAB makes doubles of them.
     //
     // errors  IoError.
-    template <class Number>
-    void add(std::string_view name, std::span<const Number> values, std::size_t rows);
+    template <class Number> void add(std::string_view name, std::span<const Number> values, std::size_t rows);
     void add(std::string_view name, double value) { add(name, std::span<const double>{&value, 1}, 1); }
 
     // A row of characters; what is no UTF-8 becomes some other letters. errors  IoError.

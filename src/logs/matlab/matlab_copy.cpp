@@ -14,10 +14,8 @@ namespace zlg::logs {
 namespace {
 
 // Whole numbers of 64 bits in a log are below 2^53, and as doubles the same.
-template <class Value>
-using Stored = std::conditional_t<sizeof(Value) == 8, double, Value>;
-template <class Value>
-using Column = std::vector<Stored<Value>>;
+template <class Value> using Stored = std::conditional_t<sizeof(Value) == 8, double, Value>;
+template <class Value> using Column = std::vector<Stored<Value>>;
 
 bool has_light(const RawHeader& header) { return header.light_samples > 0; }
 bool has_light(const AngleHeader&) { return false; }
@@ -41,8 +39,7 @@ void add(Matlab5File& file, const char* name, const std::vector<Number>& values,
 
 }  // namespace
 
-template <class Table>
-struct MatlabCopy<Table>::State {
+template <class Table> struct MatlabCopy<Table>::State {
     State(const std::string& path, const typename Table::Header& h, bool force)
         : header{h}, settings{settings_to_toml(h.settings)}, file{path, force}, name{path} {}
 
@@ -68,11 +65,9 @@ template <class Table>
 MatlabCopy<Table>::MatlabCopy(const std::string& path, const typename Table::Header& header, bool force)
     : state_{std::make_unique<State>(path, header, force)} {}
 
-template <class Table>
-MatlabCopy<Table>::~MatlabCopy() = default;
+template <class Table> MatlabCopy<Table>::~MatlabCopy() = default;
 
-template <class Table>
-void MatlabCopy<Table>::write(const typename Table::Row& row, const core::LightSamples& light) {
+template <class Table> void MatlabCopy<Table>::write(const typename Table::Row& row, const core::LightSamples& light) {
     State& s = *state_;
     ++s.rows;
     s.require_room(s.rows * sizeof(double));
@@ -88,8 +83,7 @@ void MatlabCopy<Table>::write(const typename Table::Row& row, const core::LightS
     if (has_truth(s.header)) s.truth.push_back(truth(row));
 }
 
-template <class Table>
-void MatlabCopy<Table>::close() {
+template <class Table> void MatlabCopy<Table>::close() {
     State& s = *state_;
     for_each_column<Table>(s.columns, [&s](const auto& field, const auto& values, std::size_t) {
         if (field.is_in(s.header)) add(s.file, field.name, values, s.rows);
@@ -106,10 +100,7 @@ void MatlabCopy<Table>::close() {
     s.file.close();
 }
 
-template <class Table>
-const std::string& MatlabCopy<Table>::part_path() const {
-    return state_->file.part_path();
-}
+template <class Table> const std::string& MatlabCopy<Table>::part_path() const { return state_->file.part_path(); }
 
 template class MatlabCopy<RawTable>;
 template class MatlabCopy<AngleTable>;

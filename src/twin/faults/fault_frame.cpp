@@ -67,17 +67,12 @@ void FrameFaults::spoil_slow(const Fault& fault, core::SensorFrame& sensor) cons
         case FaultKind::piezo_adc_stuck:
             if (has_latched_) sensor.piezo_v = latched_.piezo_v;
             break;
-        case FaultKind::piezo_adc_nan:
-            sensor.piezo_v = std::numeric_limits<double>::quiet_NaN();
-            break;
-        case FaultKind::temperature_nan:
-            sensor.temperature_c = std::numeric_limits<double>::quiet_NaN();
-            break;
+        case FaultKind::piezo_adc_nan: sensor.piezo_v = std::numeric_limits<double>::quiet_NaN(); break;
+        case FaultKind::temperature_nan: sensor.temperature_c = std::numeric_limits<double>::quiet_NaN(); break;
         case FaultKind::counter_bit_stuck:
             sensor.counter |= std::uint64_t{1} << static_cast<unsigned>(fault.size);
             break;
-        default:
-            break;
+        default: break;
     }
 }
 

@@ -13,17 +13,13 @@ double length_lambda(const Fault& fault, double time_s, double vibration_hz) {
     const double part = progress(fault, time_s);
     switch (fault.kind) {
         case FaultKind::mode_hop:
-        case FaultKind::piezo_step:
-            return fault.size * part;
-        case FaultKind::perimeter_ramp:
-            return fault.size * fault.duration_s * part;
+        case FaultKind::piezo_step: return fault.size * part;
+        case FaultKind::perimeter_ramp: return fault.size * fault.duration_s * part;
         case FaultKind::vibration:
             if (!acts_at(fault, time_s)) return 0.0;
             return fault.size * core::maths::sin(2.0 * std::numbers::pi * vibration_hz * (time_s - fault.at_s));
-        case FaultKind::shock:
-            return part < 1.0 ? fault.size * core::maths::sin(std::numbers::pi * part) : 0.0;
-        default:
-            return 0.0;
+        case FaultKind::shock: return part < 1.0 ? fault.size * core::maths::sin(std::numbers::pi * part) : 0.0;
+        default: return 0.0;
     }
 }
 

@@ -16,17 +16,10 @@ void QuadratureDecoder::see(const Signals& signals) {
     s_high_ = switched(s_high_, signals.s, threshold_);
     c_high_ = switched(c_high_, signals.c, threshold_);
     switch ((quadrant() - before) & 3) {
-        case 1:
-            ++quarters_;
-            break;
-        case 2:
-            ++n_ambiguous_;
-            break;
-        case 3:
-            --quarters_;
-            break;
-        default:
-            break;
+        case 1: ++quarters_; break;
+        case 2: ++n_ambiguous_; break;
+        case 3: --quarters_; break;
+        default: break;
     }
 }
 

@@ -29,8 +29,7 @@ void expect_as_c(double got, double expected, double x, double y) {
     }
 }
 
-template <class Ours, class Theirs>
-void expect_as_c_of_one(Ours ours, Theirs theirs) {
+template <class Ours, class Theirs> void expect_as_c_of_one(Ours ours, Theirs theirs) {
     for (const double x : sizes) {
         expect_as_c(ours(x), theirs(x), x, 0.0);
         expect_as_c(ours(-x), theirs(-x), -x, 0.0);
@@ -38,8 +37,7 @@ void expect_as_c_of_one(Ours ours, Theirs theirs) {
     EXPECT_TRUE(std::isnan(ours(not_a_number)));
 }
 
-template <class Ours, class Theirs>
-void expect_as_c_of_two(Ours ours, Theirs theirs) {
+template <class Ours, class Theirs> void expect_as_c_of_two(Ours ours, Theirs theirs) {
     const auto both_signs = [&](double x, double y) {
         for (const double first : {x, -x})
             for (const double second : {y, -y}) expect_as_c(ours(first, second), theirs(first, second), first, second);

@@ -255,8 +255,7 @@ HalfRecord any_half() {
 
 // A positive number of the configuration: as it is, an end of what `check` lets pass, or from between, of any
 // magnitude.
-template <class Set>
-void vary(GyroCompensationConfig& config, double least, double most, Set set) {
+template <class Set> void vary(GyroCompensationConfig& config, double least, double most, Set set) {
     const int place = any(-200, 150);  // in hundredths of the way, beyond the ends: an end
     if (place < -100) return;
     const double part = std::fmin(std::fmax(0.01 * place, 0.0), 1.0);

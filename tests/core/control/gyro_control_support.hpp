@@ -50,8 +50,7 @@ public:
         actuator = initial_actuator(c);
     }
 
-    template <class Spoil>
-    const GyroControlOutput& half(Spoil spoil) {
+    template <class Spoil> const GyroControlOutput& half(Spoil spoil) {
         SensorFrame frame = plant.advance(actuator);
         spoil(frame);
         out = step(config, state, frame);
@@ -65,8 +64,7 @@ public:
     const GyroControlOutput& half() {
         return half([](SensorFrame&) {});
     }
-    template <class Spoil>
-    void ticks(int n, Spoil spoil) {
+    template <class Spoil> void ticks(int n, Spoil spoil) {
         for (int k = 0; k < 2 * n; ++k) (void)half(spoil);
     }
     void ticks(int n) {

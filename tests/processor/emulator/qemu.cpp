@@ -121,8 +121,7 @@ private:
 
     // The answer mostly comes within microseconds. Where it does not, the other side needs this processor, or something
     // may be wrong: wait asleep.
-    template <class Good>
-    void await(const std::atomic<std::uint32_t>& word, const Good& good) {
+    template <class Good> void await(const std::atomic<std::uint32_t>& word, const Good& good) {
         for (int k = 0; k < n_spins; ++k) {
             if (good(word.load(std::memory_order_acquire))) return;
             relax();

@@ -7,8 +7,7 @@ namespace zlg::core::light_spline_test {
 using compensation_test::Random;
 
 // Samples of a course of the detuning over all halves.
-template <class Course>
-LightSums sums_of(int halves, int samples, Course course) {
+template <class Course> LightSums sums_of(int halves, int samples, Course course) {
     LightSums sums;
     sums.basis = light_basis(halves);
     std::vector<double> light(static_cast<unsigned>(samples));

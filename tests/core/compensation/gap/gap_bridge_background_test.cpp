@@ -7,8 +7,7 @@ namespace zlg::core::gap_bridge_support::background_test {
 const GapBridgeConfig automatic{.method = BridgeMethod::automatic};
 
 // Worked in the background, after each tick for which `works` is true.
-template <class Works>
-Delivered run_apart(const Log& log, GapBridgeState& state, Works&& works) {
+template <class Works> Delivered run_apart(const Log& log, GapBridgeState& state, Works&& works) {
     state.background.worker.is_background = true;
     Delivered result;
     for (std::size_t t = 0; t < log.size(); ++t) {

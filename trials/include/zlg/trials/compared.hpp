@@ -31,8 +31,7 @@ public:
     [[nodiscard]] const firmware::GyroState& state() const { return gyro_.state(); }
 
 private:
-    template <class Output>
-    void compare(const Output& here, const Output& there);
+    template <class Output> void compare(const Output& here, const Output& there);
 
     rig::Processor& other_;
     firmware::Gyro gyro_;

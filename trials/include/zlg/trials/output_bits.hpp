@@ -39,8 +39,7 @@ BOOST_HANA_ADAPT_STRUCT(zlg::firmware::HalfOutput, control, compensation);
 namespace zlg::trials {
 
 // As 64 bits; integers by their value.
-template <class Number>
-[[nodiscard]] constexpr std::uint64_t bits_of(Number x) noexcept {
+template <class Number> [[nodiscard]] constexpr std::uint64_t bits_of(Number x) noexcept {
     if constexpr (std::same_as<Number, double>)
         return std::bit_cast<std::uint64_t>(x);
     else if constexpr (std::same_as<Number, float>)
@@ -52,8 +51,7 @@ template <class Number>
 }
 
 struct Anything {
-    template <class T>
-    operator T() const;
+    template <class T> operator T() const;
 };
 
 template <class Struct, std::size_t n>
@@ -80,8 +78,7 @@ void for_each_number(const Value& value, Visit&& visit, const char* owner = "", 
 }
 
 // The first number in which two outputs differ; empty where every bit is the same.
-template <class Output>
-[[nodiscard]] std::string first_difference(const Output& a, const Output& b) {
+template <class Output> [[nodiscard]] std::string first_difference(const Output& a, const Output& b) {
     std::vector<std::uint64_t> of_a;
     for_each_number(a, [&](const char*, const char*, std::uint64_t bits) { of_a.push_back(bits); });
     std::string found;
@@ -95,8 +92,7 @@ template <class Output>
 // FNV-1a over all numbers that were added.
 class BitHash {
 public:
-    template <class Output>
-    void add(const Output& output) {
+    template <class Output> void add(const Output& output) {
         for_each_number(output, [this](const char*, const char*, std::uint64_t bits) {
             for (int k = 0; k < 64; k += 8) value_ = (value_ ^ ((bits >> k) & 0xffu)) * 0x100000001b3u;
         });

@@ -45,8 +45,7 @@ public:
     // 0..n-1, each with a probability that is off by at most 2^-64.
     std::size_t below(std::size_t n) noexcept { return bits() % n; }
     bool is_one_in(std::size_t n) noexcept { return below(n) == 0; }
-    template <class Choice, std::size_t n>
-    Choice one_of(const std::array<Choice, n>& choices) noexcept {
+    template <class Choice, std::size_t n> Choice one_of(const std::array<Choice, n>& choices) noexcept {
         return choices[below(n)];
     }
 

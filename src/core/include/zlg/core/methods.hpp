@@ -37,13 +37,10 @@ enum class BridgeMethod : unsigned char {
 [[nodiscard]] constexpr int order_of(BridgeMethod method) noexcept {
     switch (method) {
         case BridgeMethod::none:
-        case BridgeMethod::constant:
-            return 0;
-        case BridgeMethod::linear:
-            return 1;
+        case BridgeMethod::constant: return 0;
+        case BridgeMethod::linear: return 1;
         case BridgeMethod::quadratic:
-        case BridgeMethod::automatic:
-            break;
+        case BridgeMethod::automatic: break;
     }
     return 2;
 }

@@ -8,8 +8,7 @@
 
 namespace zlg::core {
 
-template <class Unit>
-class Quantity {
+template <class Unit> class Quantity {
 public:
     constexpr Quantity() = default;
     constexpr explicit Quantity(double value) : value_{value} {}

@@ -35,8 +35,7 @@ struct AngleWriterOptions {
 };
 
 // A member of the row of a tick, from a TimedAngle.
-template <class Member>
-constexpr auto of_row(Member core::AngleRow::*member) {
+template <class Member> constexpr auto of_row(Member core::AngleRow::*member) {
     return [member](auto& angle) -> auto& { return angle.row.*member; };
 }
 

@@ -9,10 +9,8 @@
 
 namespace zlg::logs {
 
-template <class Table>
-class LogSource;
-template <class Table>
-class LogSink;
+template <class Table> class LogSource;
+template <class Table> class LogSink;
 
 // Reads rows in order and checks every one by the rules of AngleTable. The format is recognised by the content.
 class AngleReader {

@@ -62,8 +62,7 @@ public:
         last_.push_back(value);
     }
     // Each becomes of(it), from the first on.
-    template <class Of>
-    void change(Of of) {
+    template <class Of> void change(Of of) {
         LongColumn changed;
         for (const double value : *this) changed.push_back(of(value));
         *this = std::move(changed);

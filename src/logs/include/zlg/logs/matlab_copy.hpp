@@ -17,8 +17,7 @@ namespace zlg::logs {
 
 // The rows are held in memory until `close`, as MATLAB will hold them. The file appears under its name then, whole, or
 // not at all.
-template <class Table>
-class MatlabCopy {
+template <class Table> class MatlabCopy {
 public:
     // errors  IoError, as the writers of logs; FormatError: a setting with a line break.
     MatlabCopy(const std::string& path, const typename Table::Header& header, bool force);

@@ -10,10 +10,8 @@
 
 namespace zlg::logs {
 
-template <class Table>
-class LogSource;
-template <class Table>
-class LogSink;
+template <class Table> class LogSource;
+template <class Table> class LogSink;
 
 // Reads rows in order and checks every one by the rules of RawTable and RawSequence, where also stands what a row holds
 // of an optional column that is absent. The format is recognised by the content.

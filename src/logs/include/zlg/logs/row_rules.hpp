@@ -22,20 +22,14 @@ struct RowNumber {
 
 // +1 or -1.
 struct Sign {
-    template <class T>
-    static constexpr bool allows(T value, std::int64_t) {
-        return (value == 1) | (value == -1);
-    }
+    template <class T> static constexpr bool allows(T value, std::int64_t) { return (value == 1) | (value == -1); }
     static std::string fault(std::int64_t value, std::int64_t row);
     static std::string allowed();
 };
 
 // 0 or 1.
 struct Flag {
-    template <class T>
-    static constexpr bool allows(T value, std::int64_t) {
-        return (value == 0) | (value == 1);
-    }
+    template <class T> static constexpr bool allows(T value, std::int64_t) { return (value == 0) | (value == 1); }
     static std::string fault(std::int64_t value, std::int64_t row);
     static std::string allowed();
 };
@@ -53,8 +47,7 @@ struct Whole {
 };
 
 // Any number that a T holds.
-template <class T>
-inline constexpr Whole any_whole{std::numeric_limits<T>::min(), std::numeric_limits<T>::max()};
+template <class T> inline constexpr Whole any_whole{std::numeric_limits<T>::min(), std::numeric_limits<T>::max()};
 
 // A finite number within bounds; the bitwise operators let a loop over a column be vectorised.
 struct Real {

@@ -10,8 +10,7 @@
 
 namespace zlg::logs {
 
-template <class Stored, class Member, class RowRule, class IsThere>
-struct TableColumn {
+template <class Stored, class Member, class RowRule, class IsThere> struct TableColumn {
     using Value = Stored;  // type of the number in an HDF5 log and in an array
     using Rule = RowRule;
 
@@ -25,19 +24,16 @@ struct TableColumn {
 
     static constexpr bool is_optional = !std::is_null_pointer_v<IsThere>;
 
-    template <class Header>
-    [[nodiscard]] constexpr bool is_in(const Header& header) const {
+    template <class Header> [[nodiscard]] constexpr bool is_in(const Header& header) const {
         if constexpr (is_optional) return header.*is_there;
         return true;
     }
 
-    template <class Row>
-    [[nodiscard]] constexpr Stored of(const Row& row) const {
+    template <class Row> [[nodiscard]] constexpr Stored of(const Row& row) const {
         return static_cast<Stored>(std::invoke(member, row));
     }
 
-    template <class Row>
-    constexpr void set(Row& row, Stored value) const {
+    template <class Row> constexpr void set(Row& row, Stored value) const {
         auto& place = std::invoke(member, row);
         place = static_cast<std::remove_reference_t<decltype(place)>>(value);
     }
@@ -54,12 +50,10 @@ constexpr auto optional_column(const char* name, const char* unit, Member member
     return TableColumn<Stored, Member, Rule, bool Presence::*>{name, unit, member, rule, is_there, absent, is_needed};
 }
 
-template <class Table>
-inline constexpr std::size_t n_columns = std::tuple_size_v<decltype(Table::columns)>;
+template <class Table> inline constexpr std::size_t n_columns = std::tuple_size_v<decltype(Table::columns)>;
 
 // Calls use(column, k) for every column of a table, k its place from 0.
-template <class Table, class Use>
-constexpr void for_each_column(Use use) {
+template <class Table, class Use> constexpr void for_each_column(Use use) {
     [&]<std::size_t... k>(std::index_sequence<k...>) { (use(std::get<k>(Table::columns), k), ...); }
     (std::make_index_sequence<n_columns<Table>>{});
 }
@@ -68,12 +62,10 @@ template <template <class> class Part, class... Columns>
 std::tuple<Part<typename Columns::Value>...> parts_of(const std::tuple<Columns...>&);
 
 // What a reader or a writer has of each column of a table: Part<Value>.
-template <class Table, template <class> class Part>
-using PartsOf = decltype(parts_of<Part>(Table::columns));
+template <class Table, template <class> class Part> using PartsOf = decltype(parts_of<Part>(Table::columns));
 
 // Calls use(column, part, k) for every column of a table and what belongs to it.
-template <class Table, class Parts, class Use>
-constexpr void for_each_column(Parts& parts, Use use) {
+template <class Table, class Parts, class Use> constexpr void for_each_column(Parts& parts, Use use) {
     [&]<std::size_t... k>(std::index_sequence<k...>) { (use(std::get<k>(Table::columns), std::get<k>(parts), k), ...); }
     (std::make_index_sequence<n_columns<Table>>{});
 }

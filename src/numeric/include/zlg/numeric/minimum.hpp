@@ -15,8 +15,7 @@ struct Minimum {
 // The least of n + 1 equally spaced points of [low, high], then Brent's method between its neighbours: the global
 // minimum wherever the function has one minimum at most within two steps. A point where f is not a number is passed
 // over.
-template <class Function>
-Minimum scanned_minimum(Function f, double low, double high, int n) {
+template <class Function> Minimum scanned_minimum(Function f, double low, double high, int n) {
     const double step = (high - low) / n;
     Minimum best{low, std::numeric_limits<double>::infinity()};
     for (int k = 0; k <= n; ++k) {

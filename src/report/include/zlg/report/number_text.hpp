@@ -35,10 +35,7 @@ inline constexpr const char* no_number = "none";
 [[nodiscard]] inline std::string cell(std::string_view text) { return std::string{text}; }
 
 // A row of a table.
-template <class... Cells>
-[[nodiscard]] std::vector<std::string> row(const Cells&... cells) {
-    return {cell(cells)...};
-}
+template <class... Cells> [[nodiscard]] std::vector<std::string> row(const Cells&... cells) { return {cell(cells)...}; }
 
 [[nodiscard]] inline Figure blank_figure(std::string id, std::string title, std::string caption, std::string x_label,
                                          std::string y_label) {

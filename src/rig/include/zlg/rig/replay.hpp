@@ -62,8 +62,7 @@ public:
     // Halves are leapt over, at the border of two ticks, with no gap open: the rows until then.
     //
     // return  the angle of the leap.
-    template <class OnRow = decltype(ignored)>
-    double leap(const Leap& leap, const OnRow& on_row = ignored) {
+    template <class OnRow = decltype(ignored)> double leap(const Leap& leap, const OnRow& on_row = ignored) {
         end(on_row);
         halves_ += leap.halves;
         const double arcsec = rig::leap(config_, state_, leap);

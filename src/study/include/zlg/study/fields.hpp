@@ -96,8 +96,7 @@ inline constexpr LineCount line_counts[] = {
 };
 
 // use(name, get) for each: get(result) is its value.
-template <class Result, class Use>
-void for_each_field(Use use) {
+template <class Result, class Use> void for_each_field(Use use) {
     namespace hana = boost::hana;
     hana::for_each(hana::accessors<Result>(),
                    [&use](const auto& field) { use(hana::first(field).c_str(), hana::second(field)); });

@@ -127,8 +127,7 @@ static_assert([] {
     return fault_table.at(static_cast<std::size_t>(kind));
 }
 
-template <auto Fact>
-[[nodiscard]] constexpr auto of_all_kinds() {
+template <auto Fact> [[nodiscard]] constexpr auto of_all_kinds() {
     std::array<std::remove_cvref_t<decltype(fault_table[0].*Fact)>, n_fault_kinds> values{};
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = fault_table[k].*Fact;
     return values;

@@ -51,8 +51,7 @@ struct BeamWeight {
     double weight = 1.0;
     double beyond = 0.0;  // w o
 
-    template <class Number>
-    [[nodiscard]] constexpr Number of(Number beam_b) const noexcept {
+    template <class Number> [[nodiscard]] constexpr Number of(Number beam_b) const noexcept {
         return weight * beam_b - beyond;
     }
 };
