@@ -47,11 +47,14 @@ void Worker::read_messages() {
 
 void Worker::obey(const Message& message) {
     switch (message.tag) {
-        case Tag::description: try { gyros_.emplace(sweep::with_motion_checksums(same_program(message.text)));
+        case Tag::description: {
+            try {
+                gyros_.emplace(sweep::with_motion_checksums(same_program(message.text)));
             } catch (const std::exception& error) {
                 stop(Tag::failed, error.what());
             }
             break;
+        }
         case Tag::gyro:
             if (!is_stopped_) waiting_.push_back(std::stoll(message.text));
             break;
