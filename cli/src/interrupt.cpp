@@ -95,7 +95,8 @@ InterruptGuard::InterruptGuard() {
 InterruptGuard::~InterruptGuard() {
     if (!thread_.joinable()) return;
     has_ended = true;
-    ::pthread_kill(thread_.native_handle(), SIGTERM);
+    // A watcher that has its signal looks at `has_ended` by itself, and may have left the next one to the system.
+    if (!is_signalled) ::pthread_kill(thread_.native_handle(), SIGTERM);
     thread_.join();
 }
 

@@ -64,10 +64,11 @@ int guarded(CLI::App& program, int argc, char** argv) {
     try {
         return parsed(program, argc, argv);
     } catch (const std::bad_alloc&) {
-        report_error("out of memory");
+        report_error("out of memory" + after_error);
         return bad_input_or_output;
     } catch (const std::filesystem::filesystem_error& error) {
-        report_error(fmt::format("cannot look up {}: {}", error.path1().string(), error.code().message()));
+        report_error(fmt::format("cannot look up {}: {}", error.path1().string(), error.code().message()) +
+                     after_error);
         return bad_input_or_output;
     } catch (const std::exception& error) {
         report_error(error.what() + after_error);

@@ -80,6 +80,8 @@ class Choice(Row):
     toml, page           what `zlg run` and `Config.loads` take; HTML
     """
 
+    runner_up: dict[str, Any] = {}
+
 
 class Relock(Row):
     """The perimeter loop from its closing on.

@@ -24,10 +24,11 @@
 namespace zlg::logs {
 namespace {
 
-// The system knows the speeds by their numbers, and below by its own.
+// The system knows the speeds by their numbers, and by its own: below the least, and from 4096 on.
 void set_speed(termios& settings, int baud) {
     constexpr int least = 50;
-    if (baud < least || ::cfsetspeed(&settings, static_cast<speed_t>(baud)) != 0)
+    const bool is_own_number = baud >= 4096 && baud < 4112;
+    if (baud < least || is_own_number || ::cfsetspeed(&settings, static_cast<speed_t>(baud)) != 0)
         throw SourceError{
             fmt::format("baud {}: allowed is a speed of serial lines, such as 9600, 115200 or 921600", baud)};
 }

@@ -42,8 +42,11 @@ logs::Mapping mapping_of(const config::Motion& m) {
 }
 
 std::string in_words_of_motion(std::string message) {
-    constexpr std::array<std::pair<const char*, const char*>, 3> words{
-        {{"--map axis", "motion.column"}, {"--map time=none", "motion.time_column = 0"}, {"--map ", "motion."}}};
+    constexpr std::array<std::pair<const char*, const char*>, 4> words{
+        {{"--map axis", "motion.column"},
+         {"--map time=none", "motion.time_column = 0"},
+         {"time_unit=s, ms, us, ns, or time=none", "motion.time_column = 0"},
+         {"--map ", "motion."}}};
     for (const auto& [from, to] : words)
         for (std::size_t at = message.find(from); at != std::string::npos; at = message.find(from))
             message.replace(at, std::string_view{from}.size(), to);

@@ -99,6 +99,7 @@ void add_follow(CLI::App& program) {
     verb->add_option("--duration", options->at_most_s,
                      "end after so long, of the log or of the clock, whichever comes first");
     add_output_options(*verb, *options);
+    verb->get_option("--out")->description("angle log to write: .csv, .h5 or .hdf5");
     verb->callback([options] { follow(*options); });
 }
 

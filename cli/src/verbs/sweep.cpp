@@ -176,6 +176,7 @@ void add_sweep(CLI::App& program, const sweep::Crew& crew) {
     verb->add_option("--merge", options->merged, "put files of results together");
     if (!crew) verb->add_option("--threads", options->threads, "1..256 (2)")->check(CLI::Range(1, 256).description(""));
     add_output_options(*verb, *options);
+    verb->get_option("--out")->description("the file of results, .h5; FILE.part while it grows");
     verb->get_option("--force")->description("overwrite what exists, and begin anew");
     verb->callback([options, crew] {
         check_options(*options);

@@ -23,10 +23,11 @@ Eigen::MatrixXd angle_covariance(int noise, std::int64_t m, std::int64_t steps, 
         const auto sampled = sampled_covariance(noise, n);
         of_lag = Eigen::Map<const Eigen::VectorXd>(sampled.data(), n + 1);
     } else {
-        const std::int64_t apart = std::max<std::int64_t>(1, std::min(m, max_flicker_m) / steps);
+        const double apart =
+            std::max(1.0, static_cast<double>(std::min(m, max_flicker_m)) / static_cast<double>(steps));
         for (Eigen::Index k = 0; k <= n; ++k)
-            of_lag[k] =
-                noise == 1 ? flicker_covariance(k * apart) : continuous_covariance(static_cast<double>(k), noise + 2);
+            of_lag[k] = noise == 1 ? flicker_covariance(std::llround(static_cast<double>(k) * apart))
+                                   : continuous_covariance(static_cast<double>(k), noise + 2);
     }
     return toeplitz(of_lag, n + 1);
 }

@@ -33,8 +33,8 @@ BOOST_HANA_ADAPT_STRUCT(zlg::design::DriftTerms, nonmagnetic_arcsec_s, quasi_non
                         switch_errors_arcsec_s);
 BOOST_HANA_ADAPT_STRUCT(zlg::design::Margins, phase_margin_deg, gain_margin, crossover_rad_s, stable);
 BOOST_HANA_ADAPT_STRUCT(zlg::design::InitialMiss, root_sum_square_lambda, worst_lambda);
-BOOST_HANA_ADAPT_STRUCT(zlg::study::LoopLine, tick_over_tau, stability_limit, stability_note, relock_note, step,
-                        relock_s, false_drift_arcsec_s, false_angle_arcsec, false_angle_law_arcsec, capture_lambda);
+BOOST_HANA_ADAPT_STRUCT(zlg::study::LoopLine, tick_over_tau, stability_limit, stability_note, relock_note, relock_s,
+                        false_drift_arcsec_s, false_angle_arcsec, false_angle_law_arcsec, capture_lambda);
 BOOST_HANA_ADAPT_STRUCT(zlg::study::SubstitutionLine, order, gap_ticks, frequency_hz, worst_arcsec, rms_arcsec,
                         noise_gain, counter_arcsec, relock_arcsec, total_arcsec);
 BOOST_HANA_ADAPT_STRUCT(zlg::study::AxisResult, name, holds, rate_hz, n_samples, n_known, n_gaps, is_error,
