@@ -70,7 +70,8 @@ std::optional<FormerKey> find_former(std::string_view key, std::string_view valu
     for (const FormerKey& other : others)
         if (other.key == key && value.find(other.value) != std::string_view::npos) return other;
     for (const auto& [keys, now] : groups)
-        if (const auto found = std::ranges::find(keys, key); found != keys.end()) return FormerKey{*found, "", now};
+        if (const auto found = std::find(keys.begin(), keys.end(), key); found != keys.end())
+            return FormerKey{*found, "", now};
     return std::nullopt;
 }
 

@@ -78,11 +78,12 @@ bool is_within(const Slot& slot, const Config& config) {
                  [&](const RealList& s) {
                      const std::vector<double>& all = s.value(config);
                      return (s.may_be_empty || !all.empty()) &&
-                            std::ranges::all_of(all, [&](double value) { return contains(s.range, value); });
+                            std::all_of(all.begin(), all.end(), [&](double value) { return contains(s.range, value); });
                  },
                  [&](const ChoiceList& s) {
-                     return std::ranges::all_of(s.get(config),
-                                                [&](int i) { return i >= 0 && i < static_cast<int>(s.names.size()); });
+                     const auto chosen = s.get(config);
+                     return std::all_of(chosen.begin(), chosen.end(),
+                                        [&](int i) { return i >= 0 && i < static_cast<int>(s.names.size()); });
                  },
                  [&](const Interval& s) {
                      return config.switching.interval_optimal || contains(s.range, config.switching.interval_s);

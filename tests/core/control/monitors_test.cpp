@@ -81,7 +81,7 @@ TEST(Monitors, Light) {
 
 TEST(Monitors, DetuningAndCounter) {
     EXPECT_SEEN(health_detuning_unsteady, counts, o.unsteady = true);
-    EXPECT_SEEN(health_detuning_over_limit, nothing, o.regulated.over_limit = true);
+    EXPECT_SEEN(health_detuning_over_limit, nothing, o.over_limit = true);
     EXPECT_SEEN(health_counter_jump, counts, o.beyond = true);
     EXPECT_SEEN(health_counter_jump | health_rate_over_range, counts, o.beyond = s.was_beyond = true);
     EXPECT_SEEN(0u, nothing, s.was_beyond = true);
@@ -113,7 +113,7 @@ TEST(Monitors, StateOfTheGyro) {
     EXPECT_SEEN(health_relock_failed, nothing, o.phase = SwitchPhase::returning);
     EXPECT_SEEN(health_relock_failed | health_searching, nothing, o.phase = SwitchPhase::searching);
     EXPECT_SEEN(health_half_wave_rejected, nothing, o.half_wave_rejected = true);
-    EXPECT_SEEN(health_piezo_near_range_end, nothing, o.regulated.near_range_end = true);
+    EXPECT_SEEN(health_piezo_near_range_end, nothing, o.near_range_end = true);
     EXPECT_SEEN(health_recentring, nothing, s.recentring = true);
     EXPECT_SEEN(health_warming_up, nothing, o.warms_up = true);
     EXPECT_SEEN(health_edges_shifted, nothing, c.commutator.dither.method = DitherMethod::paired);
