@@ -18,13 +18,22 @@
 #include "magnifier.hpp"
 #include "relock_profile.hpp"
 #include "run_variant.hpp"
-#include "trouble.hpp"
 
 namespace zlg::study {
 namespace {
 
 constexpr std::int64_t curve_points = 2000;  // at most about twice as many: what a figure can show
 constexpr int profile_ticks = 8;             // after closing, of which the mean false drift is reported
+
+// Which bits of the health of one half are trouble, and not a sound gyro at work. A switch darkens the beams and finds
+// the perimeter far off, in every gyro.
+constexpr std::uint32_t trouble_bits(std::uint32_t health) {
+    using namespace core;
+    constexpr std::uint32_t at_work = health_switching | health_recentring | health_warming_up | health_edges_shifted;
+    constexpr std::uint32_t of_a_switch = health_light_lost | health_detuning_over_limit;
+    const bool is_switching = (health & health_switching) != 0;
+    return health & ~at_work & ~(is_switching ? of_a_switch : 0u);
+}
 
 std::int64_t curve_stride(const RunTask& task, std::int64_t ticks) {
     return task.has_figures ? std::max<std::int64_t>(1, ticks / curve_points) : ticks + 1;

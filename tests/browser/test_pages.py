@@ -174,7 +174,7 @@ class Pages(unittest.TestCase):
         for page in self.pages + self.more_pages:
             for width in (390, 1200):
                 self.browser.open(page, width=width)
-                self.assertGreater(self.browser.value("document.querySelectorAll('.live').length"), 1)
+                self.assertGreater(self.browser.value("document.querySelectorAll('.live').length"), 0)
                 self.assertEqual(self.browser.complaints(), [])
 
     def test_no_figure_of_any_page_complains_whatever_is_done_with_it(self):
@@ -182,7 +182,7 @@ class Pages(unittest.TestCase):
             with self.subTest(page=page.name):
                 self.browser.open(page)
                 n = self.browser.value("document.querySelectorAll('figure[data-figure]').length")
-                self.assertGreater(n, 1)
+                self.assertGreater(n, 0)
                 self.assertEqual(self.browser.value("document.querySelectorAll('figure[data-figure].live').length"), n)
                 for k in range(n):
                     self.exercise(f"document.querySelectorAll('figure[data-figure]')[{k}]")

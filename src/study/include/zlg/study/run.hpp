@@ -40,8 +40,8 @@ struct RunResult {
     // True false drift on ticks 1, 2, ... after the loop is closed, averaged over the switches with their sign, deg/h.
     std::vector<double> relock_false_drift_deg_h;
     rig::SwitchTally tally;  // of what the control tried
-    // Health bits of trouble, as `trouble.hpp` has them, and ticks outside the switches whose counts could not be
-    // trusted.
+    // Health bits of trouble, which no sound gyro at work raises, and ticks outside the switches whose counts could not
+    // be trusted.
     std::uint32_t health_raised = 0;
     std::int64_t invalid_ticks = 0;
     // By phase: measured ticks whose end was read as a whole count, and those of them with health_fringe_lost.
