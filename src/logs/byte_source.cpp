@@ -30,7 +30,7 @@ void set_speed(termios& settings, int baud) {
     const bool is_own_number = baud >= 4096 && baud < 4112;
     if (baud < least || is_own_number || ::cfsetspeed(&settings, static_cast<speed_t>(baud)) != 0)
         throw SourceError{
-            fmt::format("baud {}: allowed is a speed of serial lines, such as 9600, 115200 or 921600", baud)};
+            fmt::format("baud {}: allowed are 9600, 115200, 921600 and the other speeds of serial lines", baud)};
 }
 
 // Bytes as they come: no line editing, no flow control, no signals.
