@@ -162,13 +162,7 @@ TEST(Paper, figure_6_of_a_run_without_a_switch_says_so) {
     EXPECT_EQ(item.section.paragraphs.size(), 1u);
 }
 
-TEST(Paper, figure_1_counts_the_bias_that_the_detuning_leaves) {
-    // Eq (2) with 60 kHz and chi 3.6.
-    const auto& counted = series("figure-1-frequency", "counted on the twin");
-    ASSERT_EQ(counted.x.size(), 9u);
-    for (std::size_t i = 0; i < counted.x.size(); ++i)
-        EXPECT_NEAR(counted.y[i], 60.0 * (1.0 - 3.6 * counted.x[i] * counted.x[i]), 0.02) << counted.x[i];
-    EXPECT_NEAR(counted.x.front(), -0.2, 0.002);
+TEST(Paper, figure_1_counts_the_bias_of_both_signs) {
     const auto& beat = series("figure-1-beat", "mean over the half");
     for (std::size_t i = 0; i + 1 < beat.y.size(); ++i) EXPECT_NEAR(beat.y[i], i % 2 == 0 ? 60.0 : -60.0, 0.5);
 }
