@@ -36,7 +36,7 @@ def _is_large(value: Any) -> bool:
 
 
 class Shown:
-    """A record whose repr stays short; arrays are told by their length and ends."""
+    """A record whose repr stays short; arrays are shown by their length and ends."""
 
     def __repr__(self) -> str:
         members = [f"{name}={short(value)}" for name, value in vars(self).items() if value is not None]

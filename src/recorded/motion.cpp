@@ -22,7 +22,7 @@ namespace {
 // Two days of 200 rows a second, a quarter of a gigabyte.
 constexpr std::size_t max_rows = std::size_t{1} << 25;
 
-// The section as `zlg import` would be told it.
+// The section as the mapping of `zlg import`.
 logs::Mapping mapping_of(const config::Motion& m) {
     constexpr std::array<const char*, 6> separators{"", "space", "tab", "semicolon", "comma", "bar"};
     constexpr std::array<const char*, 3> marks{"", "point", "comma"};

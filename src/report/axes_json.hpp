@@ -1,5 +1,5 @@
 #pragma once
-// What the script of a page is told of a figure.
+// What the script of a page knows of a figure.
 
 #include <string>
 
