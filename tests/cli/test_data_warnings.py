@@ -171,6 +171,8 @@ class Sensors(ForeignCase):
         self.assertEqual(axis["samples"], 1000)
         self.assertAlmostEqual(mean, 0.03 * 206264.806, delta=30)
         self.mean(path, *said, "--map", "sensor=none")
+        # All questions come at once, as of the rows of one.
+        self.refuse(2, "analyze", path, says=("--map sensor=GYRO or ACC", "'type'", "axis=COLUMN, of 'w'", "unit=", "rate_hz="))
 
     def test_sentences(self):
         rows = []

@@ -46,7 +46,7 @@ void accuse(CounterMonitorState& s, std::uint32_t bits, std::uint32_t residual, 
     for (std::uint32_t left = bits; left != 0; left &= left - 1) {
         const std::uint32_t bit = left & (0 - left);
         if (((residual + tolerance) & (bit - 1)) > 2 * tolerance) continue;
-        const int k = std::countr_zero(bit);
+        const int k = std::countr_zero(left);
         std::uint64_t& seen = s.readings[static_cast<std::size_t>(k)];
         if ((seen & place) == 0 || (s.stuck & bit) != 0) s.n_calm = 0;
         seen |= place;

@@ -21,14 +21,14 @@ struct TemperatureUnit {
     double zero_c = 0.0;
 };
 
-constexpr std::array<TemperatureUnit, 5> units{{{"C", " c celsius centigrade "},
-                                                {"mC", " mc millicelsius ", 1e-3},
-                                                {"K", " k kelvin kelvins ", 1.0, -273.15},
-                                                {"mK", " mk millikelvin ", 1e-3, -273.15},
-                                                {"F", " f fahrenheit ", 5.0 / 9.0, -160.0 / 9.0}}};
+constexpr std::array<TemperatureUnit, 5> temperatures{{{"C", " c celsius centigrade "},
+                                                       {"mC", " mc millicelsius ", 1e-3},
+                                                       {"K", " k kelvin kelvins ", 1.0, -273.15},
+                                                       {"mK", " mk millikelvin ", 1e-3, -273.15},
+                                                       {"F", " f fahrenheit ", 5.0 / 9.0, -160.0 / 9.0}}};
 
 // deg F, degrees_F and °F as f.
-std::string usual_spelling(std::string_view word) {
+std::string spelt_as_temperature(std::string_view word) {
     std::string text = text::small_letters(word);
     for (const std::string_view degrees : {"degrees", "degree", "deg", "\xC2\xB0", "\xC2\xBA", " ", "_", "."})
         for (std::size_t at = text.find(degrees); at != std::string::npos; at = text.find(degrees))
@@ -47,18 +47,19 @@ std::vector<std::string_view> places(std::string_view name) {
 }
 
 // That of degrees Celsius where the name has none.
-TemperatureUnit unit_of(std::string_view name) {
+TemperatureUnit temperature_unit_of(std::string_view name) {
     for (const std::string_view place : places(name))
-        for (const TemperatureUnit& unit : units)
-            if (unit.words.find(fmt::format(" {} ", usual_spelling(place))) != std::string_view::npos) return unit;
-    return units.front();
+        for (const TemperatureUnit& unit : temperatures)
+            if (unit.words.find(fmt::format(" {} ", spelt_as_temperature(place))) != std::string_view::npos)
+                return unit;
+    return temperatures.front();
 }
 
 }  // namespace
 
 std::string make_celsius(TextColumn& column) {
-    const TemperatureUnit unit = unit_of(column.name);
-    if (unit.name == units.front().name) return {};
+    const TemperatureUnit unit = temperature_unit_of(column.name);
+    if (unit.name == temperatures.front().name) return {};
     column.values.change([&](double value) { return value * unit.celsius + unit.zero_c; });
     return fmt::format("{} is in {} by its name, and is taken in C", described(column), unit.name);
 }

@@ -26,7 +26,7 @@ namespace {
 using hdf5::Handle;
 using hdf5::Source;
 
-constexpr int max_depth = 8;
+constexpr int max_groups = 8;
 #if H5_VERSION_GE(1, 12, 0)
 using ObjectInfo = H5O_info1_t;
 #else
@@ -34,7 +34,7 @@ using ObjectInfo = H5O_info_t;
 #endif
 
 // Where its attributes contradict each other all are named, which together are no unit.
-std::string unit_of(const Source& file, const std::string& path) {
+std::string stored_unit(const Source& file, const std::string& path) {
     std::string all;
     for (const char* name : {"unit", "units", "Unit", "Units"}) {
         try {
@@ -148,9 +148,9 @@ struct StoredSet {
     }
 };
 
-class Reader {
+class Hdf5Reader {
 public:
-    explicit Reader(const std::string& path)
+    explicit Hdf5Reader(const std::string& path)
         : file_{std::make_shared<Source>(path)}, budget_{path, std::filesystem::file_size(path)} {}
 
     std::vector<ForeignArray> all(const std::string& from) {
@@ -178,7 +178,7 @@ private:
     }
 
     void walk(const std::string& group, const std::string& prefix, int depth) {
-        if (depth > max_depth) return leave_out(prefix, "it lies more than 8 groups deep");
+        if (depth > max_groups) return leave_out(prefix, "it lies more than 8 groups deep");
         for (const std::string& name : file_->members(group.empty() ? "/" : group)) {
             if (name.starts_with('#')) continue;  // what MATLAB keeps for itself
             budget_.take_object();
@@ -229,7 +229,7 @@ private:
         const bool rows_follow = size[0] >= size[1];
         // Of a matrix the longer side are the rows, whichever way round its writer stores it.
         ForeignArray array{.name = name,
-                           .unit = unit_of(*file_, path),
+                           .unit = stored_unit(*file_, path),
                            .rows = std::max(size[0], size[1]),
                            .columns = std::min(size[0], size[1]),
                            .may_be_rounded = kind == H5T_INTEGER && H5Tget_size(type.get()) >= 8,
@@ -259,7 +259,7 @@ private:
 ForeignTable hdf5_table_of(const std::string& path, const Mapping& mapping) {
     std::string from = mapping.text("table");
     if (!from.starts_with('/')) from = "/" + from;
-    Reader reader{path};
+    Hdf5Reader reader{path};
     std::vector<ForeignArray> arrays = reader.all(from);
     return table_of_arrays(path, foreign_nature(path), std::move(arrays), reader.notes);
 }

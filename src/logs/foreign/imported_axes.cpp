@@ -151,7 +151,8 @@ ImportedAxes imported_axes(const ForeignLook& look) {
 
 TextColumn even_column(const ForeignTable& table, const Mapping& mapping) {
     const bool is_said = mapping.has("axis");
-    const ForeignColumn& chosen = column_named(table, is_said ? mapping.axes().front() : "1");
+    const std::string axis = is_said ? mapping.axes().front() : "1";
+    const ForeignColumn& chosen = column_named(table, axis);
     refuse_words(chosen);
     std::int64_t number = time_column(table, mapping);
     if (!is_said && (chosen.number == number || rises_as_time(chosen.values)))

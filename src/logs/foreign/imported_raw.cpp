@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <zlg/logs/error.hpp>
 #include <zlg/logs/imported.hpp>
 
@@ -12,8 +11,6 @@
 namespace zlg::logs {
 
 namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse_whole_ticks(const std::string& path) {
     throw FormatError(

@@ -47,9 +47,9 @@ struct Rest {
     [[nodiscard]] bool is_empty() const { return at >= bytes.size(); }
 };
 
-class Reader {
+class Matlab5Reader {
 public:
-    Reader(const std::string& path, std::string asked)
+    Matlab5Reader(const std::string& path, std::string asked)
         : path_{path}, asked_{std::move(asked)}, file_{Piece::of_file(path)}, budget_{path, file_.size()} {
         if (file_.size() < header_bytes) throw FormatError(fmt::format("{}: a MATLAB 5 file that is cut off", path));
         swapped_ = file_.text(126, 1) == "M";
@@ -214,7 +214,7 @@ private:
 }  // namespace
 
 ForeignTable matlab5_table_of(const std::string& path, const Mapping& mapping) {
-    Reader reader{path, mapping.text("table")};
+    Matlab5Reader reader{path, mapping.text("table")};
     reader.read();
     return table_of_arrays(path, "a MATLAB 5 file", std::move(reader.arrays), reader.notes);
 }

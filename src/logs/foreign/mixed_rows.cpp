@@ -106,9 +106,9 @@ bool differ(const ForeignColumn& column, const std::vector<std::int64_t>& kinds)
 
 }  // namespace
 
-void refuse_mixed_rows(ForeignLook& look) {
+std::optional<MixedRows> mixed_rows(ForeignLook& look) {
     constexpr std::size_t seldom = 50, fewest = 8;  // rows of a kind; turns of each
-    if (look.mapping.has("sensor")) return;
+    if (look.mapping.has("sensor")) return std::nullopt;
     for (const ForeignColumn& column : look.table.columns) {
         const std::vector<std::int64_t> kinds = kinds_of(column);
         if (kinds.empty() || is_said(column, look.table, look.mapping)) continue;
@@ -128,15 +128,17 @@ void refuse_mixed_rows(ForeignLook& look) {
         if (!is_mixed) continue;
         const auto other = std::ranges::find_if(kinds, [&](std::int64_t kind) { return kind != kinds.front(); });
         const auto at = static_cast<std::size_t>(other - kinds.begin());
-        const std::string second = column.is_number
-                                       ? fmt::format("{}", column.values[at])
-                                       : text::excerpt(column.words[static_cast<std::size_t>(*other)], 30, ' ');
-        throw MappingError(fmt::format(
-            "{}, {}: is {} in some rows and {} in others; allowed are the rows of one sensor: {}, or --map sensor=none "
-            "if they are of one",
-            look.table.path, described(column), column.first, second,
-            column.is_number ? std::string{"parted before"} : fmt::format("--map sensor={}", column.first)));
+        if (column.is_number)
+            throw MappingError(
+                fmt::format("{}, {}: is {} in some rows and {} in others; allowed are the rows of one "
+                            "sensor, parted before, or --map sensor=none if they are of one",
+                            look.table.path, described(column), column.first, column.values[at]));
+        const std::string second = text::excerpt(column.words[static_cast<std::size_t>(*other)], 30, ' ');
+        return MixedRows{column.words[static_cast<std::size_t>(kinds.front())],
+                         fmt::format("sensor={} or {} ({} has them by turns; none: they are of one)", column.first,
+                                     second, described(column))};
     }
+    return std::nullopt;
 }
 
 bool holds_rows_of_others(const ForeignLook& look) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <zlg/logs/error.hpp>
 
 #include "celsius.hpp"
@@ -13,11 +12,7 @@
 
 namespace zlg::logs {
 
-namespace {
-
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
+namespace {}  // namespace
 
 RawSources::RawSources(const ForeignLook& look) : look_{look} {
     std::vector<std::int64_t> wanted;

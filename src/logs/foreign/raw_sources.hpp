@@ -1,6 +1,7 @@
 #pragma once
 // What a mapping says of the columns of a raw log: columns of the foreign file, or a value in their place.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,8 @@
 #include <zlg/logs/imported.hpp>
 
 namespace zlg::logs {
+
+inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 struct RawSource {
     std::string key;

@@ -20,9 +20,10 @@ std::vector<double> ranges(bool of_whole) {
     std::vector<double> all{360.0, 1e9};
     for (const double second : {1.0, 1e3, 1e6, 1e9})
         for (const double circle : {3600.0, 43200.0, 86400.0, 604800.0}) all.push_back(circle * second);
-    if (of_whole)
+    if (of_whole) {
         for (int bits = 7; bits <= 32; ++bits) all.push_back(std::ldexp(1.0, bits));
-    if (of_whole) all.insert(all.end(), {1e3, 1e4, 1e5, 1e6});
+        for (const double decade : {1e3, 1e4, 1e5, 1e6}) all.push_back(decade);
+    }
     std::ranges::sort(all);
     return all;
 }
