@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
 #include <vector>
+#include <zlg/logs/mapping.hpp>
 #include <zlg/text/spelling.hpp>
-
-#include "units.hpp"
 
 namespace zlg::logs {
 
@@ -25,43 +25,65 @@ constexpr std::array<TemperatureUnit, 5> temperatures{{{"C", " c celsius centigr
                                                        {"mC", " mc millicelsius ", 1e-3},
                                                        {"K", " k kelvin kelvins ", 1.0, -273.15},
                                                        {"mK", " mk millikelvin ", 1e-3, -273.15},
-                                                       {"F", " f fahrenheit ", 5.0 / 9.0, -160.0 / 9.0}}};
+                                                       {"F", " f fahr fahrenheit ", 5.0 / 9.0, -160.0 / 9.0}}};
 
-// deg F, degrees_F and °F as f.
-std::string spelt_as_temperature(std::string_view word) {
-    std::string text = text::small_letters(word);
-    for (const std::string_view degrees : {"degrees", "degree", "deg", "\xC2\xB0", "\xC2\xBA", " ", "_", "."})
-        for (std::size_t at = text.find(degrees); at != std::string::npos; at = text.find(degrees))
-            text.erase(at, degrees.size());
-    return text;
+// Words of a factor, and of what is no temperature yet.
+constexpr std::string_view of_others = " milli dc cc uc dk ck uk x10 x100 v mv volt volts adc lsb ohm ohms ";
+
+bool lists(std::string_view words, const std::string& word) {
+    return words.find(fmt::format(" {} ", word)) != std::string_view::npos;
 }
 
-// Where the name has brackets its unit is in them, else behind the last stroke, point, underscore or blank.
-std::vector<std::string_view> places(std::string_view name) {
-    std::vector<std::string_view> all = unit_places(name);
-    if (name.find_first_of("[(") == std::string_view::npos)
-        for (const char mark : {'/', '.'})
-            if (const std::size_t at = name.rfind(mark); at != std::string_view::npos)
-                all.push_back(name.substr(at + 1));
-    return all;
+// tempF, temp_degF_avg and temp [\xC2\xB0F] have the word f: a name is parted where its letters and digits end, and
+// where a capital follows two small letters; of each part what stands behind "temp" and "deg" is left, in small
+// letters.
+std::vector<std::string> words_of(std::string name) {
+    for (const std::string_view sign : {"\xC2\xB0", "\xC2\xBA"})
+        for (std::size_t at = name.find(sign); at != std::string::npos; at = name.find(sign))
+            name.erase(at, sign.size());
+    std::vector<std::string> words(1);
+    std::size_t n_small = 0;
+    for (const char c : name) {
+        const bool is_small = c >= 'a' && c <= 'z', is_capital = c >= 'A' && c <= 'Z', is_digit = c >= '0' && c <= '9';
+        const bool is_part = is_small || is_capital || is_digit;
+        if (!is_part || (is_capital && n_small >= 2)) words.emplace_back();
+        if (is_part) words.back() += c;
+        n_small = is_small ? n_small + 1 : 0;
+    }
+    for (std::string& word : words) {
+        word = text::small_letters(word);
+        for (const std::string_view before : {"temperature", "temp", "degrees", "degree", "deg"})
+            if (word.starts_with(before)) word.erase(0, before.size());
+    }
+    return words;
 }
 
-// That of degrees Celsius where the name has none.
-TemperatureUnit temperature_unit_of(std::string_view name) {
-    for (const std::string_view place : places(name))
-        for (const TemperatureUnit& unit : temperatures)
-            if (unit.words.find(fmt::format(" {} ", spelt_as_temperature(place))) != std::string_view::npos)
-                return unit;
-    return temperatures.front();
+// [1/10 C], (0.1 C), [C x 10].
+bool has_factor(std::string_view name) {
+    const std::size_t open = std::min(name.find_first_of("[("), name.size());
+    const std::string_view brackets = name.substr(open);
+    return brackets.find_first_of("0123456789") != std::string_view::npos &&
+           brackets.find_first_of("/.x*") != std::string_view::npos;
 }
 
 }  // namespace
 
 std::string make_celsius(TextColumn& column) {
-    const TemperatureUnit unit = temperature_unit_of(column.name);
-    if (unit.name == temperatures.front().name) return {};
-    column.values.change([&](double value) { return value * unit.celsius + unit.zero_c; });
-    return fmt::format("{} is in {} by its name, and is taken in C", described(column), unit.name);
+    const std::vector<std::string> words = words_of(column.name);
+    const auto is_other = [](const std::string& word) { return lists(of_others, word); };
+    if (has_factor(column.name) || std::ranges::any_of(words, is_other))
+        throw MappingError(
+            fmt::format("{} is in no unit of temperature that is known by its name; allowed are C, mC, "
+                        "K, mK and F (none: C)",
+                        described(column)));
+    const auto unit = std::ranges::find_if(temperatures, [&](const TemperatureUnit& u) {
+        return std::ranges::any_of(words, [&](const std::string& word) { return lists(u.words, word); });
+    });
+    if (unit == temperatures.end())
+        return fmt::format("{} is taken in C, which its name does not say", described(column));
+    if (unit == temperatures.begin()) return {};
+    column.values.change([&](double value) { return value * unit->celsius + unit->zero_c; });
+    return fmt::format("{} is in {} by its name, and is taken in C", described(column), unit->name);
 }
 
 }  // namespace zlg::logs

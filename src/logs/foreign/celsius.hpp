@@ -6,7 +6,9 @@
 
 namespace zlg::logs {
 
-// Its values become degrees Celsius; what was done, in words, and empty where the name has no other unit.
+// Its values become degrees Celsius; what was done or presumed, in words, and empty where its name says C.
+//
+// errors  MappingError: its name has a factor or a unit of something else.
 [[nodiscard]] std::string make_celsius(TextColumn& column);
 
 }  // namespace zlg::logs

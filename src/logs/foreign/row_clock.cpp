@@ -11,6 +11,7 @@
 #include <zlg/logs/error.hpp>
 
 #include "text_table/steps.hpp"
+#include "text_table/time_names.hpp"
 
 namespace zlg::logs {
 
@@ -106,20 +107,25 @@ void check_one_rate(const TextColumn& times, const RowTimes& found, const std::s
         if (std::fabs(step - found.step) > 0.2 * found.step) refuse(from, step);
         ++from;
     }
-    // The first and the last third by the numbers of their rows, missing ones with them, each as well as its ends are
-    // known. A hundredth: no clock drifts by so much.
+    // Up to eight pieces by the numbers of their rows, missing ones with them, each as well as its ends are known. A
+    // hundredth: no clock drifts by so much.
     constexpr double most_apart = 0.01;
-    const std::size_t third = t.size() / 3;
-    if (third < window) return;
-    const auto step_of = [&](std::size_t begin, std::size_t end) {
+    const std::size_t n_pieces = std::min<std::size_t>(8, t.size() / window);
+    if (n_pieces < 3) return;
+    std::vector<double> steps;
+    const auto begin_of = [&](std::size_t piece) { return piece * (t.size() - 1) / n_pieces; };
+    for (std::size_t piece = 0; piece < n_pieces; ++piece) {
+        const std::size_t begin = begin_of(piece), end = begin_of(piece + 1);
         double rows = static_cast<double>(end - begin);
         for (const Hole& hole : found.holes)
             if (hole.row >= begin && hole.row < end) rows += static_cast<double>(hole.n_missing);
-        return (t[end] - t[begin]) / rows;
-    };
-    const double first = step_of(0, third), last = step_of(t.size() - 1 - third, t.size() - 1);
-    const double known = 6.0 * (found.tolerance - 1e-3);
-    if (std::fabs(last - first) > (most_apart + known) * found.step) refuse(t.size() - 1 - third, last);
+        steps.push_back((t[end] - t[begin]) / rows);
+    }
+    const auto [least, most] = std::ranges::minmax_element(steps);
+    const double known = 2.0 * static_cast<double>(n_pieces) * (found.tolerance - 1e-3);
+    const auto odd = std::fabs(*least - found.step) > std::fabs(*most - found.step) ? least : most;
+    if (*most - *least > (most_apart + known) * found.step)
+        refuse(begin_of(static_cast<std::size_t>(odd - steps.begin())), *odd);
 }
 
 // The place to which stamps are rounded, where that is no small part of a row; 0: it is. A decimal one, or the tick of
@@ -280,6 +286,9 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
     }
     check_repetitions(times, path);
     const auto unit = known_time_unit(path, times.name, times.holds_dates, mapping);
+    if (const auto named = unit_of(times.name); unit && named && !times.holds_dates && *named != *unit)
+        clock.notes.push_back(
+            fmt::format("{} is read in {} as said, against its name", described(times), mapping.text("time_unit")));
     const double said = presumed_step_s.value_or(0.0) * unit.value_or(0.0);
     refuse_clock_digits(times, *clock.times, path);
     check_coarse(times, *clock.times, said, path);

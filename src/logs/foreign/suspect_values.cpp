@@ -182,6 +182,17 @@ std::string repeats(const TextColumn& column, const Steps& steps) {
                        percent(share), 1.0 / (1.0 - share));
 }
 
+// Samples that were lost and written as 0. Of values that noise parts so many are 0 by chance as repeat, at most.
+std::string zeros(const TextColumn& column, const Steps& steps) {
+    constexpr double fewest = 0.002, noise = 8.0, often = 10.0;
+    const auto n_zero = static_cast<double>(std::ranges::count(column.values, 0.0));
+    const double share = n_zero / static_cast<double>(column.values.size());
+    if (share < fewest || share == 1.0 || steps.usual < noise * steps.least) return {};
+    if (share < often * steps.least / steps.usual) return {};
+    return fmt::format("{}: {} of its rows are exactly 0, far more than of any value beside it", described(column),
+                       percent(share));
+}
+
 // The outermost values with their numbers of rows, from outside on.
 class Outermost {
 public:
@@ -304,9 +315,9 @@ std::vector<std::string> no_measurements(const TextColumn& column, const std::st
     const Steps steps = look_at_steps(column.values);
     const Rails rails{column.values};
     std::vector<std::string> lines;
-    for (std::string line :
-         {spikes_of(column.values, described(column)), repeats(column, steps), stretches(column, steps, rails, holds),
-          holds == "angle" ? std::string{} : rails_in_words(column, steps, rails)})
+    for (std::string line : {spikes_of(column.values, described(column)), repeats(column, steps), zeros(column, steps),
+                             stretches(column, steps, rails, holds),
+                             holds == "angle" ? std::string{} : rails_in_words(column, steps, rails)})
         if (!line.empty()) lines.push_back(std::move(line));
     return lines;
 }

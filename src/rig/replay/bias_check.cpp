@@ -41,6 +41,7 @@ void BiasCheck::compare(const Pair& pair) {
     ++n_pairs_;
     if (counts_one_way(pair) && ++n_one_way_ == 1) first_one_way_ = pair;
     const double change = static_cast<double>(pair.half.counts) - static_cast<double>(pair.before.counts);
+    if (change == 0.0) ++n_equal_;
     const double bias_counts = 0.5 * beat_sign(pair.half) * change;
     if (bias_counts > -least_counts_ && bias_counts < least_counts_) return;
     ++n_judged_;
@@ -65,6 +66,11 @@ std::string BiasCheck::complaint(const std::string& log_name) const {
             "counter may be missing, and the angle is wrong then",
             log_name, presumed_counts_, n_one_way_, n_pairs_, first_one_way_.before.counts, first_one_way_.half.counts,
             first_one_way_.before.half, first_one_way_.half.half);
+    if (!lasts_ && n_pairs_ >= lasting_halves && 20 * n_equal_ >= 19 * n_pairs_)
+        return fmt::format(
+            "{}: the counter stands still: in {} of {} pairs of half-periods of opposite bias_sign the "
+            "counts are equal; a gyro with a bias never has that, and the angle is none",
+            log_name, n_equal_, n_pairs_);
     if (!lasts_) return {};
     const auto& [before, half] = first_wrong_;
     return fmt::format(

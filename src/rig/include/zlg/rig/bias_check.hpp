@@ -9,7 +9,7 @@
 // large, and negative. A single half proves nothing: a fault or a jerk may do that. Halves in a row do.
 //
 // A counter that drops the direction counts the bias the same way in both signs: b is then near 0 in the whole log, and
-// the counts are not.
+// the counts are not. One that stands still counts the same in both.
 
 #include <cstdint>
 #include <string>
@@ -27,7 +27,7 @@ public:
     void take(const core::HalfRecord& half);
 
     // One line where 32 halves in a row contradict the columns, whatever lies between them that shows no bias, or where
-    // nearly all halves count the bias one way; else empty.
+    // nearly all halves count the bias one way, or none; else empty.
     [[nodiscard]] std::string complaint(const std::string& log_name) const;
     // The first of both: it holds whatever the bias is.
     [[nodiscard]] bool is_contradicted() const { return lasts_; }
@@ -47,6 +47,7 @@ private:
     bool has_last_ = false;
     std::int64_t n_pairs_ = 0;
     std::int64_t n_one_way_ = 0;
+    std::int64_t n_equal_ = 0;
     Pair first_one_way_{};
     std::int64_t n_judged_ = 0;
     std::int64_t n_wrong_ = 0;
