@@ -39,30 +39,8 @@ template <class Range, class Is, class Of = identity> constexpr auto count_if(Ra
     return std::count_if(begin(range), end(range), [&](auto&& each) { return invoke(is, invoke(of, each)); });
 }
 
-template <class Range, class Value> constexpr auto count(Range&& range, const Value& value) {
-    return std::count(begin(range), end(range), value);
-}
-
 template <class Range, class Out> constexpr void copy(Range&& range, Out out) {
     std::copy(begin(range), end(range), out);
-}
-
-template <class Range, class Out, class Is> constexpr void copy_if(Range&& range, Out out, Is is) {
-    std::copy_if(begin(range), end(range), out, is);
-}
-
-template <class Range, class Out, class Make> constexpr void transform(Range&& range, Out out, Make make) {
-    std::transform(begin(range), end(range), out, make);
-}
-
-template <class Range, class Value> constexpr void replace(Range&& range, const Value& before, const Value& now) {
-    std::replace(begin(range), end(range), before, now);
-}
-
-template <class Range, class Less = std::less<>, class Of = identity>
-constexpr auto min_element(Range&& range, Less less = {}, Of of = {}) {
-    return std::min_element(begin(range), end(range),
-                            [&](auto&& a, auto&& b) { return invoke(less, invoke(of, a), invoke(of, b)); });
 }
 
 template <class Range, class Less = std::less<>, class Of = identity>
@@ -71,17 +49,8 @@ constexpr auto max_element(Range&& range, Less less = {}, Of of = {}) {
                             [&](auto&& a, auto&& b) { return invoke(less, invoke(of, a), invoke(of, b)); });
 }
 
-template <class Range, class Less = std::less<>, class Of = identity>
-constexpr void sort(Range&& range, Less less = {}, Of of = {}) {
-    std::sort(begin(range), end(range), [&](auto&& a, auto&& b) { return invoke(less, invoke(of, a), invoke(of, b)); });
-}
-
 template <class Range, class Less = std::less<>> constexpr bool is_sorted(Range&& range, Less less = {}) {
     return std::is_sorted(begin(range), end(range), less);
-}
-
-template <class Range, class Place> constexpr void nth_element(Range&& range, Place nth) {
-    std::nth_element(begin(range), nth, end(range));
 }
 
 template <class Range, class Are = std::equal_to<>> constexpr auto adjacent_find(Range&& range, Are are = {}) {

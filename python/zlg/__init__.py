@@ -25,7 +25,6 @@ from .acceptance import Acceptance as Acceptance, accept as accept
 from .calibration import Calibration as Calibration, calibrate as calibrate
 from .config import Config as Config
 from .line import follow as follow
-from .logs import convert as convert
 from .rig import simulate as simulate
 from .core import compensate as compensate
 from .study import RunResult as RunResult, analyze as analyze, read as read, run as run

@@ -15,7 +15,7 @@ from ._columns import Progress, made_of, warn_each
 from ._shown import Columns, axes_of
 from .config import Config, checked
 
-__all__ = ["AngleLog", "RawLog", "Switches", "convert", "kind", "read_angles", "read_raw", "write_angles", "write_raw"]
+__all__ = ["AngleLog", "RawLog", "Switches", "kind", "read_angles", "read_raw", "write_angles", "write_raw"]
 
 Path = Union[str, os.PathLike[str]]
 
@@ -182,25 +182,3 @@ def read_angles(path: Path, progress: Progress = None) -> AngleLog:
 def write_angles(path: Path, log: AngleLog, force: bool = False, progress: Progress = None) -> None:
     """Write an angle log, .csv, .h5 or .hdf5; the truth is kept in HDF5. Raises IoError, FormatError."""
     _zlg.write_angles(os.fspath(path), vars(log), log.tick_s, log.settings, force, progress)
-
-
-def convert(source: Path, target: Path, force: bool = False, progress: Progress = None) -> None:
-    """A raw or angle log in the other format, every value the same; light samples stay behind where the target is CSV.
-
-    The log is held in memory meanwhile; `zlg convert` is not bound by that. Raises IoError, FormatError; ValueError for a file
-    that is no log.
-    """
-
-    notify = progress if progress is not None else lambda fraction: None
-
-    def half(first: int) -> Progress:
-        return lambda fraction: notify(0.5 * (first + fraction))
-
-    found = kind(source)
-    if found == "raw":
-        light = not os.fspath(target).lower().endswith(".csv")
-        write_raw(target, read_raw(source, light, half(0)), None, force, half(1))
-    elif found == "angles":
-        write_angles(target, read_angles(source, half(0)), force, half(1))
-    else:
-        raise ValueError(f"{os.fspath(source)}: is neither a raw log nor an angle log")

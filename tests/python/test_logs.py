@@ -90,9 +90,9 @@ def test_a_copy_has_the_version_of_its_source(version, tmp_path):
     angles.format_version = version
     write_raw(tmp_path / "raw.h5", raw)
     write_angles(tmp_path / "angles.h5", angles)
-    for name, read in (("raw", read_raw), ("angles", read_angles)):
-        zlg.convert(tmp_path / f"{name}.h5", tmp_path / f"{name}.csv")
-        zlg.convert(tmp_path / f"{name}.csv", tmp_path / f"{name}_back.h5")
+    for name, read, write in (("raw", read_raw, write_raw), ("angles", read_angles, write_angles)):
+        write(tmp_path / f"{name}.csv", read(tmp_path / f"{name}.h5"))
+        write(tmp_path / f"{name}_back.h5", read(tmp_path / f"{name}.csv"))
         for file in (f"{name}.h5", f"{name}.csv", f"{name}_back.h5"):
             assert read(tmp_path / file).format_version == version
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <string>
 #include <string_view>
 #include <vector>
 #include <zlg/logs/mapping.hpp>
-#include <zlg/text/spelling.hpp>
 
 namespace zlg::logs {
 
@@ -34,36 +34,27 @@ bool lists(std::string_view words, const std::string& word) {
     return words.find(fmt::format(" {} ", word)) != std::string_view::npos;
 }
 
-// tempF, temp_degF_avg and temp [\xC2\xB0F] have the word f: a name is parted where its letters and digits end, and
-// where a capital follows two small letters; of each part what stands behind "temp" and "deg" is left, in small
-// letters.
-std::vector<std::string> words_of(std::string name) {
-    for (const std::string_view sign : {"\xC2\xB0", "\xC2\xBA"})
-        for (std::size_t at = name.find(sign); at != std::string::npos; at = name.find(sign))
-            name.erase(at, sign.size());
+// tempF, temp_degF_avg and temp [°F] have the word f: a name is parted where its letters and digits end, and where a
+// capital follows two small letters; of each part what stands behind "temp" and "deg" is left, in small letters.
+std::vector<std::string> words_of(std::string_view name) {
     std::vector<std::string> words(1);
     std::size_t n_small = 0;
-    for (const char c : name) {
-        const bool is_small = c >= 'a' && c <= 'z', is_capital = c >= 'A' && c <= 'Z', is_digit = c >= '0' && c <= '9';
-        const bool is_part = is_small || is_capital || is_digit;
-        if (!is_part || (is_capital && n_small >= 2)) words.emplace_back();
-        if (is_part) words.back() += c;
-        n_small = is_small ? n_small + 1 : 0;
+    for (const unsigned char c : name) {
+        if (c >= 0x80) continue;  // of the sign of degrees
+        if (std::isalnum(c) == 0 || (std::isupper(c) != 0 && n_small >= 2)) words.emplace_back();
+        if (std::isalnum(c) != 0) words.back() += static_cast<char>(std::tolower(c));
+        n_small = std::islower(c) != 0 ? n_small + 1 : 0;
     }
-    for (std::string& word : words) {
-        word = text::small_letters(word);
+    for (std::string& word : words)
         for (const std::string_view before : {"temperature", "temp", "degrees", "degree", "deg"})
             if (word.starts_with(before)) word.erase(0, before.size());
-    }
     return words;
 }
 
 // [1/10 C], (0.1 C), [C x 10].
 bool has_factor(std::string_view name) {
-    const std::size_t open = std::min(name.find_first_of("[("), name.size());
-    const std::string_view brackets = name.substr(open);
-    return brackets.find_first_of("0123456789") != std::string_view::npos &&
-           brackets.find_first_of("/.x*") != std::string_view::npos;
+    const std::string_view brackets = name.substr(std::min(name.find_first_of("[("), name.size()));
+    return brackets.find_first_of("0123456789") != brackets.npos && brackets.find_first_of("/.x*") != brackets.npos;
 }
 
 }  // namespace

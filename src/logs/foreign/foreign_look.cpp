@@ -298,12 +298,12 @@ ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
         take_raw_names(look);
         check_raw(look);
     } else {
-        if (const std::optional<MixedRows> mixed = mixed_rows(look)) {
+        if (const auto mixed = mixed_rows(look)) {
             // All questions come at once: what the rows of the first sensor leave open is asked as well.
             Mapping of_first = said;
             of_first.set("sensor", mixed->first, path);
             look = look_at_foreign(path, of_first);
-            look.missing.insert(look.missing.begin(), mixed->question);
+            look.missing.insert(look.missing.begin(), mixed->second);
             return look;
         }
         check_axes(look, times);

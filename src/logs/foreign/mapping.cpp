@@ -79,8 +79,9 @@ std::string allowed_of(const Key& key) {
 const Key& key_of(const std::string& name, const std::string& where) {
     const auto found = std::ranges::find(keys, std::string_view{name}, &Key::name);
     if (found != keys.end()) return *found;
-    const auto nearest =
-        std::ranges::min_element(keys, {}, [&](const Key& key) { return text::letters_apart(name, key.name); });
+    const auto nearest = std::min_element(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+        return text::letters_apart(name, a.name) < text::letters_apart(name, b.name);
+    });
     throw MappingError(fmt::format("{}: unknown key '{}'; did you mean '{}'? (zlg import --keys lists all)", where,
                                    text::excerpt(name, 60, ' '), nearest->name));
 }

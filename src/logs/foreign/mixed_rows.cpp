@@ -106,7 +106,7 @@ bool differ(const ForeignColumn& column, const std::vector<std::int64_t>& kinds)
 
 }  // namespace
 
-std::optional<MixedRows> mixed_rows(ForeignLook& look) {
+std::optional<std::pair<std::string, std::string>> mixed_rows(ForeignLook& look) {
     constexpr std::size_t seldom = 50, fewest = 8;  // rows of a kind; turns of each
     if (look.mapping.has("sensor")) return std::nullopt;
     for (const ForeignColumn& column : look.table.columns) {
@@ -134,7 +134,7 @@ std::optional<MixedRows> mixed_rows(ForeignLook& look) {
                             "sensor, parted before, or --map sensor=none if they are of one",
                             look.table.path, described(column), column.first, column.values[at]));
         const std::string second = text::excerpt(column.words[static_cast<std::size_t>(*other)], 30, ' ');
-        return MixedRows{column.words[static_cast<std::size_t>(kinds.front())],
+        return std::pair{column.words[static_cast<std::size_t>(kinds.front())],
                          fmt::format("sensor={} or {} ({} has them by turns; none: they are of one)", column.first,
                                      second, described(column))};
     }
@@ -148,7 +148,7 @@ bool holds_rows_of_others(const ForeignLook& look) {
         is_empty.resize(values.size(), true);
         for (std::size_t k = 0; k < values.size(); ++k) is_empty[k] = is_empty[k] && std::isnan(values[k]);
     }
-    if (std::ranges::count(is_empty, false) == 0) return false;
+    if (std::count(is_empty.begin(), is_empty.end(), false) == 0) return false;
     std::vector<bool> is_of_another(is_empty.size());
     for (const ForeignColumn& column : look.table.columns) {
         if (is_said(column, look.table, look.mapping)) continue;
@@ -158,7 +158,8 @@ bool holds_rows_of_others(const ForeignLook& look) {
         for (std::size_t k = 0; k < is_empty.size(); ++k)
             is_of_another[k] = is_of_another[k] || (is_other && is_here(k));
     }
-    return 2 * std::ranges::count(is_of_another, true) > std::ranges::count(is_empty, true);
+    return 2 * std::count(is_of_another.begin(), is_of_another.end(), true) >
+           std::count(is_empty.begin(), is_empty.end(), true);
 }
 
 std::size_t take_out_empty_rows(TextTable& read, std::size_t n_axes) {

@@ -3,19 +3,16 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <zlg/logs/imported.hpp>
 
 namespace zlg::logs {
 
-// A word of the first sensor, and the question whose rows are meant.
-struct MixedRows {
-    std::string first, question;
-};
-
-// Of rows of several sensors, as a column of words says. Notes words by turns that part no values.
+// Of rows of several sensors, as a column of words says, the word of the first and the question whose are meant. Notes
+// words by turns that part no values.
 //
 // errors  MappingError: a column of numbers says so.
-[[nodiscard]] std::optional<MixedRows> mixed_rows(ForeignLook& look);
+[[nodiscard]] std::optional<std::pair<std::string, std::string>> mixed_rows(ForeignLook& look);
 
 // Most rows without a value of any axis hold one in columns that are empty beside the axes and that nobody asked for:
 // of a table into which several sensors were merged by their times they are the others' rows.

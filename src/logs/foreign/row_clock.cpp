@@ -121,7 +121,7 @@ void check_one_rate(const TextColumn& times, const RowTimes& found, const std::s
             if (hole.row >= begin && hole.row < end) rows += static_cast<double>(hole.n_missing);
         steps.push_back((t[end] - t[begin]) / rows);
     }
-    const auto [least, most] = std::ranges::minmax_element(steps);
+    const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
     const double known = 2.0 * static_cast<double>(n_pieces) * (found.tolerance - 1e-3);
     const auto odd = std::fabs(*least - found.step) > std::fabs(*most - found.step) ? least : most;
     if (*most - *least > (most_apart + known) * found.step)
@@ -189,7 +189,7 @@ double regular_gap(const LongColumn& t, double step, double far, double place) {
     }
     if (gaps.size() < fewest) return 0.0;
     const auto middle = gaps.begin() + std::ssize(gaps) / 2;
-    std::ranges::nth_element(gaps, middle);
+    std::nth_element(gaps.begin(), middle, gaps.end());
     const double usual = *middle, slack = std::max(1.0, 0.02 * usual);
     const auto n = std::ranges::count_if(gaps, [&](double gap) { return std::fabs(gap - usual) <= slack; });
     return n >= static_cast<std::ptrdiff_t>(fewest) && 5 * n >= 3 * std::ssize(gaps) ? usual : 0.0;

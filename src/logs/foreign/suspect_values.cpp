@@ -185,7 +185,7 @@ std::string repeats(const TextColumn& column, const Steps& steps) {
 // Samples that were lost and written as 0. Of values that noise parts so many are 0 by chance as repeat, at most.
 std::string zeros(const TextColumn& column, const Steps& steps) {
     constexpr double fewest = 0.002, noise = 8.0, often = 10.0;
-    const auto n_zero = static_cast<double>(std::ranges::count(column.values, 0.0));
+    const auto n_zero = static_cast<double>(std::count(column.values.begin(), column.values.end(), 0.0));
     const double share = n_zero / static_cast<double>(column.values.size());
     if (share < fewest || share == 1.0 || steps.usual < noise * steps.least) return {};
     if (share < often * steps.least / steps.usual) return {};

@@ -68,8 +68,8 @@ namespace {
 std::vector<std::int64_t> free_of(const std::vector<std::int64_t>& all, const ForeignTable& table,
                                   const Mapping& mapping) {
     std::vector<std::int64_t> free;
-    std::ranges::copy_if(all, std::back_inserter(free),
-                         [&](std::int64_t n) { return !is_said(column_at(table, n), table, mapping); });
+    std::copy_if(all.begin(), all.end(), std::back_inserter(free),
+                 [&](std::int64_t n) { return !is_said(column_at(table, n), table, mapping); });
     return free.empty() ? all : free;
 }
 

@@ -24,7 +24,7 @@ std::vector<double> ranges(bool of_whole) {
         for (int bits = 7; bits <= 32; ++bits) all.push_back(std::ldexp(1.0, bits));
         for (const double decade : {1e3, 1e4, 1e5, 1e6}) all.push_back(decade);
     }
-    std::ranges::sort(all);
+    std::sort(all.begin(), all.end());
     return all;
 }
 

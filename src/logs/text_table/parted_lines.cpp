@@ -20,8 +20,8 @@ std::span<const std::vector<FieldKind>> PartedLines::kinds(char separator, Mark 
     auto& kinds = kinds_[{separator, mark}];
     if (kinds.empty())
         for (const std::vector<Field>& row : rows_[separator])
-            std::ranges::transform(row, std::back_inserter(kinds.emplace_back()),
-                                   [mark](const Field& field) { return kind_of(field, mark); });
+            std::transform(row.begin(), row.end(), std::back_inserter(kinds.emplace_back()),
+                           [mark](const Field& field) { return kind_of(field, mark); });
     return std::span{kinds}.subspan(skipped_);
 }
 

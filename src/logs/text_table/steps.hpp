@@ -30,7 +30,7 @@ template <class Values>
             if (const double step = of(values[k + 1] - values[k]); !std::isnan(step)) steps.push_back(step);
     if (steps.empty()) return std::numeric_limits<double>::quiet_NaN();
     const auto at = steps.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(steps.size()));
-    std::ranges::nth_element(steps, at);
+    std::nth_element(steps.begin(), at, steps.end());
     return *at;
 }
 

@@ -139,7 +139,7 @@ private:
             line = without_check_sum(line);
             if (line.size() < text.size() && line.find(';') != std::string_view::npos) {  // behind a head of NovAtel's
                 sentence_.assign(line);
-                std::ranges::replace(sentence_, ';', ',');
+                std::replace(sentence_.begin(), sentence_.end(), ';', ',');
                 line = sentence_;
             }
             if (layout_.only_with.empty() || !is_of_another(text, layout_.only_with)) return true;

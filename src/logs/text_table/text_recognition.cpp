@@ -39,7 +39,7 @@ bool is_header(const std::vector<Field>& fields) {
 // 12:00:00,050 is a time of the day.
 bool has_commas_within(std::string_view word) {
     while (word.ends_with(',')) word.remove_suffix(1);
-    const auto n = std::ranges::count(word, ',');
+    const auto n = std::count(word.begin(), word.end(), ',');
     return n > 1 || (n == 1 && (word.find(':') == std::string_view::npos || std::ranges::any_of(word, [](char c) {
                                     return std::isalpha(static_cast<unsigned char>(c)) != 0 && c != 'T' && c != 'Z';
                                 })));
