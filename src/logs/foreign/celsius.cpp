@@ -39,7 +39,8 @@ bool lists(std::string_view words, const std::string& word) {
 std::vector<std::string> words_of(std::string_view name) {
     std::vector<std::string> words(1);
     std::size_t n_small = 0;
-    for (const unsigned char c : name) {
+    for (const char byte : name) {
+        const auto c = static_cast<unsigned char>(byte);
         if (c >= 0x80) continue;  // of the sign of degrees
         if (std::isalnum(c) == 0 || (std::isupper(c) != 0 && n_small >= 2)) words.emplace_back();
         if (std::isalnum(c) != 0) words.back() += static_cast<char>(std::tolower(c));
