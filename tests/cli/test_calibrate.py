@@ -292,7 +292,7 @@ class Documentation(CliTest):
         shown = subprocess.run(["bash", "-euc", script], cwd=self.folder, env={**os.environ, "PATH": path},
                                capture_output=True, text=True, check=True).stdout
         lines = re.findall(r"^(?:    )?(defaults|calibrated|true): +([\d.]+) arcsec$", shown, re.MULTILINE)
-        documented = re.findall(r"^    (defaults|calibrated|true): +([\d.]+) arcsec$", text, re.MULTILINE)
+        documented = re.findall(r"^(defaults|calibrated|true): +([\d.]+) arcsec$", text, re.MULTILINE)
         left = {name: float(value) for name, value in lines}
         self.assertEqual(sorted(left), ["calibrated", "defaults", "true"])
         for name, value in documented:

@@ -115,7 +115,7 @@ class Calibrations(CliTest):
         generator = random.Random(5)
         self.refuse_what_follows_the_mode("abs", lambda k, row: {"counts": abs(int(row["counts"]))}, "the direction of the counter")
         self.refuse_what_follows_the_mode("random", lambda k, row: {"counts": generator.randint(-300, 300)}, None)
-        self.refuse_what_follows_the_mode("zero", lambda k, row: {"counts": 0}, None)
+        self.refuse_what_follows_the_mode("zero", lambda k, row: {"counts": 0}, "the counter stands still")
 
     def test_of_voltages_that_do_not_go_with_the_switches(self):
         generator = random.Random(6)

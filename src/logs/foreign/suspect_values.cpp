@@ -182,10 +182,13 @@ std::string repeats(const TextColumn& column, const Steps& steps) {
                        percent(share), 1.0 / (1.0 - share));
 }
 
-// Samples that were lost and written as 0. Of values that noise parts so many are 0 by chance as repeat, at most.
+// Samples that were lost and written as 0, here and there. Of values that noise parts so many are 0 by chance as
+// repeat, at most.
 std::string zeros(const TextColumn& column, const Steps& steps) {
     constexpr double fewest = 0.002, noise = 8.0, often = 10.0;
-    const auto n_zero = static_cast<double>(std::count(column.values.begin(), column.values.end(), 0.0));
+    auto n_zero = static_cast<double>(std::count(column.values.begin(), column.values.end(), 0.0));
+    for (const Stretch& stretch : steps.stretches)
+        if (column.values[stretch.from] == 0.0) n_zero -= static_cast<double>(stretch.n);
     const double share = n_zero / static_cast<double>(column.values.size());
     if (share < fewest || share == 1.0 || steps.usual < noise * steps.least) return {};
     if (share < often * steps.least / steps.usual) return {};
