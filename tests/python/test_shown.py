@@ -72,14 +72,12 @@ def test_a_refused_setting_does_not_speak_of_the_command_line(setting):
 
 
 def test_a_log_goes_from_format_to_format_and_back(result, tmp_path):
-    told = []
     zlg.logs.write_raw(tmp_path / "a.h5", result.raw)
-    zlg.logs.write_raw(tmp_path / "b.csv", zlg.logs.read_raw(tmp_path / "a.h5", progress=told.append))
+    zlg.logs.write_raw(tmp_path / "b.csv", zlg.logs.read_raw(tmp_path / "a.h5"))
     zlg.logs.write_raw(tmp_path / "c.h5", zlg.logs.read_raw(tmp_path / "b.csv"))
     back = zlg.logs.read_raw(tmp_path / "c.h5")
     assert np.array_equal(back.counts, result.raw.counts) and back.settings == result.raw.settings
     assert np.array_equal(back.detuning_sq_lambda2, result.raw.detuning_sq_lambda2)
-    assert told and told == sorted(told) and 0 <= told[0] and told[-1] <= 1
     zlg.logs.write_angles(tmp_path / "angles.h5", result.angles)
     assert np.array_equal(zlg.logs.read_angles(tmp_path / "angles.h5").sigma_arcsec, result.angles.sigma_arcsec)
     with pytest.raises(zlg.IoError, match="exists"):
