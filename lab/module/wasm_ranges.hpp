@@ -5,12 +5,9 @@
 #include <algorithm>
 #include <functional>
 #include <ranges>
-#include <utility>
 
 #if _LIBCPP_VERSION < 15000
 namespace std::ranges {
-
-using not_equal_to = std::not_equal_to<>;
 
 template <class Range, class Is, class Of = identity> constexpr auto find_if(Range&& range, Is is, Of of = {}) {
     return std::find_if(begin(range), end(range), [&](auto&& each) { return invoke(is, invoke(of, each)); });
@@ -26,12 +23,8 @@ template <class Range, class Is, class Of = identity> constexpr bool any_of(Rang
     return ranges::find_if(range, is, of) != end(range);
 }
 
-template <class Range, class Is, class Of = identity> constexpr bool none_of(Range&& range, Is is, Of of = {}) {
-    return !ranges::any_of(range, is, of);
-}
-
 template <class Range, class Is, class Of = identity> constexpr bool all_of(Range&& range, Is is, Of of = {}) {
-    return ranges::none_of(
+    return !ranges::any_of(
         range, [&](auto&& each) { return !invoke(is, each); }, of);
 }
 
@@ -39,22 +32,10 @@ template <class Range, class Is, class Of = identity> constexpr auto count_if(Ra
     return std::count_if(begin(range), end(range), [&](auto&& each) { return invoke(is, invoke(of, each)); });
 }
 
-template <class Range, class Out> constexpr void copy(Range&& range, Out out) {
-    std::copy(begin(range), end(range), out);
-}
-
 template <class Range, class Less = std::less<>, class Of = identity>
 constexpr auto max_element(Range&& range, Less less = {}, Of of = {}) {
     return std::max_element(begin(range), end(range),
                             [&](auto&& a, auto&& b) { return invoke(less, invoke(of, a), invoke(of, b)); });
-}
-
-template <class Range, class Less = std::less<>> constexpr bool is_sorted(Range&& range, Less less = {}) {
-    return std::is_sorted(begin(range), end(range), less);
-}
-
-template <class Range, class Are = std::equal_to<>> constexpr auto adjacent_find(Range&& range, Are are = {}) {
-    return std::adjacent_find(begin(range), end(range), are);
 }
 
 }  // namespace std::ranges

@@ -137,6 +137,8 @@ class Holes(ForeignCase):
         self.refuse(3, "analyze", self.table("r.csv", "t_s,w_dph", [f"{x:.6f}" for x in t], self.w(2000)), says=("one rate",))
         t = numpy.cumsum(numpy.where((k > 700) & (k < 1300), 0.01 / 0.9, 0.01))
         self.refuse(3, "analyze", self.table("r.csv", "t_s,w_dph", [f"{x:.6f}" for x in t], self.w(2000)), says=("one rate",))
+        t = numpy.cumsum(0.01 * (1 + numpy.clip(self.rng.normal(0, 0.1, 1000), -0.4, 0.4)))
+        run("analyze", self.table("j.csv", "t_s,w_dph", [f"{x:.6f}" for x in t], self.w(1000)), check=True)
         noted = run("analyze", self.table("u.csv", "time_s,w_dph", k / 100, self.w(2000)), "--map", "time_unit=ms")
         self.assertIn("in ms as said, against its name", noted.stderr)
         date = self.table("d.csv", "date,time,w_dph", numpy.where(k < 600, "2024-12-30", "2024-12-31"),
@@ -241,9 +243,12 @@ class NoMeasurements(ForeignCase):
             w = numpy.round(self.rng.normal(mean, 1, 6000), 4)
             w[self.rng.random(6000) < share] = 0
             self.assertTrue(any("exactly 0" in line for line in self.warnings(w)[0]), share)
-        # A counter that hardly counts is at 0 by right.
-        for w in (numpy.round(self.rng.normal(0, 3, 6000)), numpy.round(self.rng.normal(0, 1, 6000), 2)):
-            self.assertEqual(self.warnings(w)[0], [])
+        # A counter that hardly counts is at 0 by right, also as differences of angles, or where it moves later.
+        rest = numpy.round(self.rng.normal(0, 0.6, 6000))
+        moves = numpy.where(numpy.arange(6000) < 3000, rest, numpy.round(self.rng.normal(300, 40, 6000)))
+        for w in (numpy.round(self.rng.normal(0, 3, 6000)), numpy.round(self.rng.normal(0, 1, 6000), 2), moves,
+                  numpy.diff(numpy.cumsum(numpy.concatenate([[0], rest])) * 3.263)):
+            self.assertFalse(any("exactly 0" in line for line in self.warnings(w)[0]))
 
     def test_rails(self):
         t = numpy.arange(6000) / 100
@@ -325,7 +330,7 @@ class NoMeasurements(ForeignCase):
         for name, values in (("temp_c", t), ("temp_F", 32 + 1.8 * t), ("temp [\u00b0F]", 32 + 1.8 * t), ("T_K", 273.15 + t), ("T (m\u00b0C)", 1e3 * t),
                              ("temp [deg F]", 32 + 1.8 * t), ("temp/K", 273.15 + t), ("temp [ K ]", 273.15 + t), ("temp_mK", 1e3 * (273.15 + t)),
                              ("temp.degC", t), ("T_1 [\u00b0 C]", t), ("TempF", 32 + 1.8 * t), ("tempf", 32 + 1.8 * t), ("temp_f_avg", 32 + 1.8 * t),
-                             ("boardTempK", 273.15 + t), ("T_fahr", 32 + 1.8 * t)):
+                             ("boardTempK", 273.15 + t), ("T_c [K]", 273.15 + t), ("T_fahr", 32 + 1.8 * t)):
             path = self.table("t.csv", f"w_dph,{name}", w, [f"{x:.9f}" for x in values])
             said = run("analyze", path, "--map", "rate_hz=1", "--map", "axis=w_dph", "--map", f"temperature_c={name}", "--json")
             laws.append(json.loads(said.stdout)["axes"][0]["temperature"]["bias"][1]["value"])
@@ -334,12 +339,13 @@ class NoMeasurements(ForeignCase):
 
     def test_what_is_no_temperature_by_its_name_is_refused(self):
         n = 400
-        for name in ("temp [1/10 C]", "temp (0.1 C)", "temp_degC_x10", "temp_cC", "temp_dK", "temp milli\u00b0C", "temp_mV", "adc_temp"):
+        for name in ("temp [1/10 C]", "temp (0.1 C)", "temp_degC_x10", "temp_cC", "temp_dK", "temp [milli\u00b0C]", "T [10 mK]", "temp_mV", "temp_adc", "NTC (kohm)"):
             path = self.table("t.csv", f"w_dph,{name}", self.w(n), numpy.arange(n))
             self.refuse(2, "analyze", path, "--map", "rate_hz=1", "--map", "axis=w_dph", "--map", f"temperature_c={name}", says=("mK and F",))
-        path = self.table("t.csv", "w_dph,board", self.w(n), 20 + numpy.arange(n) / n)
-        noted = run("analyze", path, "--map", "rate_hz=1", "--map", "axis=w_dph", "--map", "temperature_c=board")
-        self.assertIn("'board' is taken in C, which its name does not say", noted.stderr)
+        for name in ("board", "Temp (axis 1)", "uC_temp", "NTC [k\u03a9]"):
+            path = self.table("t.csv", f"w_dph,{name}", self.w(n), 20 + numpy.arange(n) / n)
+            noted = run("analyze", path, "--map", "rate_hz=1", "--map", "axis=w_dph", "--map", f"temperature_c={name}")
+            self.assertIn(f"'{name}' is taken in C, which its name does not say", noted.stderr)
 
 
 class Heads(ForeignCase):

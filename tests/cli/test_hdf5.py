@@ -178,7 +178,7 @@ class Followed(CliTest):
         wait_until(lambda: is_larger(Path(f"{raw}.part"), 1_000_000), writer)
         writer.kill()
         writer.wait()
-        result = run("process", f"{raw}.part", "--follow", "--give-up", "0.2", "--out", self.folder / "a.h5")
+        result = run("process", f"{raw}.part", "--follow", "--out", self.folder / "a.h5")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("nothing was added", result.stderr)
 

@@ -37,7 +37,6 @@ struct ProcessOptions : Options {
     std::string raw;
     std::string switches;  // file for the table of switches; empty: none
     bool follow = false;
-    double give_up_s = 10.0;
 };
 
 // The table of switches in a file of its own.
@@ -101,13 +100,14 @@ constexpr std::int64_t stride_halves = 100'000;
 // Waits for rows that are still being written; false where the log is complete, or nothing came for too long.
 bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options) {
     using Clock = std::chrono::steady_clock;
-    const auto until = Clock::now() + std::chrono::duration<double>{options.give_up_s};
+    constexpr std::chrono::seconds longest{10};
+    const auto until = Clock::now() + longest;
     while (!raw.refresh()) {
         check_interrupt();
         if (raw.header().complete) return false;
         if (Clock::now() > until) {
             complain(fmt::format("warning: {}: nothing was added for {} s; its writer may have been interrupted",
-                                 options.raw, options.give_up_s));
+                                 options.raw, longest.count()));
             return false;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds{20});
@@ -214,13 +214,8 @@ void add_process(CLI::App& program) {
                      "raw log, or a file of another program with counts (zlg import says what it is)")
         ->required();
     verb->add_option("--switches", options->switches, "one row per switch, CSV");
-    verb->add_flag("--follow", options->follow, "go on while the log (HDF5) is being written, until it is complete");
-    verb->add_option("--give-up", options->give_up_s, "end following after so long without a new row (10)")
-        ->check([](const std::string& text) {
-            double seconds = -1.0;
-            const bool read = CLI::detail::lexical_cast(text, seconds);
-            return read && seconds >= 0.0 && seconds <= 1e6 ? "" : fmt::format("{}: allowed is 0..1e6 s", text);
-        });
+    verb->add_flag("--follow", options->follow,
+                   "go on while the log (HDF5) is being written, until it is complete or nothing came for 10 s");
     add_mapping_options(*verb, *options);
     add_strict_option(*verb, *options);
     add_config_options(*verb, *options);

@@ -26,7 +26,7 @@ bool all_of_known(const ForeignColumn& column, bool (*holds)(double)) {
 }
 
 bool is_constant(const ForeignColumn& column) {
-    return std::ranges::adjacent_find(column.values, std::ranges::not_equal_to{}) == column.values.end();
+    return std::adjacent_find(column.values.begin(), column.values.end(), std::not_equal_to{}) == column.values.end();
 }
 
 bool is_whole(double v) { return v == std::floor(v); }
@@ -300,9 +300,12 @@ ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
     } else {
         if (const auto mixed = mixed_rows(look)) {
             // All questions come at once: what the rows of the first sensor leave open is asked as well.
-            Mapping of_first = said;
-            of_first.set("sensor", mixed->first, path);
-            look = look_at_foreign(path, of_first);
+            try {
+                Mapping of_first = said;
+                of_first.set("sensor", mixed->first, path);
+                look = look_at_foreign(path, of_first);
+            } catch (const std::runtime_error&) {  // the rows of the first word make no table
+            }
             look.missing.insert(look.missing.begin(), mixed->second);
             return look;
         }
@@ -310,7 +313,8 @@ ForeignLook look_at_foreign(const std::string& path, const Mapping& said) {
     }
     if (std::string open = open_times(look.table, look.mapping); !open.empty())
         look.missing.insert(look.missing.begin(), std::move(open));
-    if (look.missing.empty()) std::ranges::copy(unused_times(look.table, look.mapping), std::back_inserter(look.said));
+    if (look.missing.empty())
+        for (std::string& line : unused_times(look.table, look.mapping)) look.said.push_back(std::move(line));
     return look;
 }
 

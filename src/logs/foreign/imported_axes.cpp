@@ -128,8 +128,8 @@ ImportedAxes imported_axes(const ForeignLook& look) {
     std::vector<std::string> warnings = take_once(read, look.table.path);
     const RowClock clock = row_clock(read, look.table.path, look.mapping, std::nullopt);
     read.times.reset();
-    std::ranges::copy(clock.notes, std::back_inserter(imported.notes));
-    std::ranges::copy(clock.warnings, std::back_inserter(warnings));
+    std::copy(clock.notes.begin(), clock.notes.end(), std::back_inserter(imported.notes));
+    std::copy(clock.warnings.begin(), clock.warnings.end(), std::back_inserter(warnings));
     if (look.mapping.has("table_rate")) imported.table_rates_arcsec_s = table_rates(look, read.columns.back(), clock);
     const auto mode =
         look.mapping.has("mode") ? modes_of(look, read.columns[n_axes], clock) : std::vector<std::int8_t>{};

@@ -101,8 +101,8 @@ private:
         clock_ = row_clock(from_.read(), path_, mapping, step);
         // Numbers of rows show which are missing, and not how long one is.
         knows_step_ = !step || !clock_.times || !numbers_rows(*from_.read().times, *clock_.times);
-        std::ranges::copy(clock_.notes, std::back_inserter(made_.notes));
-        std::ranges::copy(clock_.warnings, std::back_inserter(made_.warnings));
+        std::copy(clock_.notes.begin(), clock_.notes.end(), std::back_inserter(made_.notes));
+        std::copy(clock_.warnings.begin(), clock_.warnings.end(), std::back_inserter(made_.warnings));
         if (!holes_count) clock_.times.reset();
     }
 

@@ -135,7 +135,7 @@ void set_from(Mapping& mapping, const std::string& key, const toml::node& value,
     if (key == "axis" && value.is_array()) {
         std::vector<std::string> axes;
         for (const toml::node& each : *value.as_array()) axes.push_back(text_of(each));
-        const bool good = !axes.empty() && std::ranges::none_of(axes, &std::string::empty);
+        const bool good = !axes.empty() && !std::ranges::any_of(axes, &std::string::empty);
         if (!good) refuse_value(where, key_of(key, where), "[...]");
         mapping.set_axes(std::move(axes));
         return;

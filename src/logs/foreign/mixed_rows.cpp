@@ -129,10 +129,9 @@ std::optional<std::pair<std::string, std::string>> mixed_rows(ForeignLook& look)
         const auto other = std::ranges::find_if(kinds, [&](std::int64_t kind) { return kind != kinds.front(); });
         const auto at = static_cast<std::size_t>(other - kinds.begin());
         if (column.is_number)
-            throw MappingError(
-                fmt::format("{}, {}: is {} in some rows and {} in others; allowed are the rows of one "
-                            "sensor, parted before, or --map sensor=none if they are of one",
-                            look.table.path, described(column), column.first, column.values[at]));
+            return std::pair{std::string{"none"},
+                             fmt::format("sensor=none if its rows are of one ({} is {} and {} by turns)",
+                                         described(column), column.first, column.values[at])};
         const std::string second = text::excerpt(column.words[static_cast<std::size_t>(*other)], 30, ' ');
         return std::pair{column.words[static_cast<std::size_t>(kinds.front())],
                          fmt::format("sensor={} or {} ({} has them by turns; none: they are of one)", column.first,

@@ -8,10 +8,8 @@
 
 namespace zlg::logs {
 
-// Of rows of several sensors, as a column of words says, the word of the first and the question whose are meant. Notes
-// words by turns that part no values.
-//
-// errors  MappingError: a column of numbers says so.
+// Of rows of several sensors, as a column says, the word of the first (none: it holds numbers) and the question whose
+// are meant. Notes words by turns that part no values.
 [[nodiscard]] std::optional<std::pair<std::string, std::string>> mixed_rows(ForeignLook& look);
 
 // Most rows without a value of any axis hold one in columns that are empty beside the axes and that nobody asked for:

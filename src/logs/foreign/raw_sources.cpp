@@ -12,8 +12,6 @@
 
 namespace zlg::logs {
 
-namespace {}  // namespace
-
 RawSources::RawSources(const ForeignLook& look) : look_{look} {
     std::vector<std::int64_t> wanted;
     for (const std::string& key : raw_keys()) {

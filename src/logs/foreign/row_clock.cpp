@@ -107,11 +107,15 @@ void check_one_rate(const TextColumn& times, const RowTimes& found, const std::s
         if (std::fabs(step - found.step) > 0.2 * found.step) refuse(from, step);
         ++from;
     }
-    // Up to eight pieces by the numbers of their rows, missing ones with them, each as well as its ends are known. A
-    // hundredth: no clock drifts by so much.
+    // Thirds by the numbers of their rows, missing ones with them, each as well as its ends are known and as chance
+    // lets steps add up that scatter. A hundredth: no clock drifts by so much.
     constexpr double most_apart = 0.01;
-    const std::size_t n_pieces = std::min<std::size_t>(8, t.size() / window);
-    if (n_pieces < 3) return;
+    constexpr std::size_t n_pieces = 3;
+    if (t.size() < n_pieces * window) return;
+    double squares = 0.0;
+    for (std::size_t k = 0; k + 1 < t.size(); ++k)
+        if (const double off = t[k + 1] - t[k] - found.step; std::fabs(off) < 0.5 * found.step) squares += off * off;
+    const double chance = 6.0 * std::sqrt(squares * n_pieces) / static_cast<double>(t.size());
     std::vector<double> steps;
     const auto begin_of = [&](std::size_t piece) { return piece * (t.size() - 1) / n_pieces; };
     for (std::size_t piece = 0; piece < n_pieces; ++piece) {
@@ -122,9 +126,9 @@ void check_one_rate(const TextColumn& times, const RowTimes& found, const std::s
         steps.push_back((t[end] - t[begin]) / rows);
     }
     const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
-    const double known = 2.0 * static_cast<double>(n_pieces) * (found.tolerance - 1e-3);
+    const double known = 6.0 * (found.tolerance - 1e-3);
     const auto odd = std::fabs(*least - found.step) > std::fabs(*most - found.step) ? least : most;
-    if (*most - *least > (most_apart + known) * found.step)
+    if (*most - *least > (most_apart + known) * found.step + chance)
         refuse(begin_of(static_cast<std::size_t>(odd - steps.begin())), *odd);
 }
 
@@ -321,7 +325,7 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
             fmt::format("{}: --map time_unit=s, ms, us or ns is missing, of {}", path, described(times)));
     }
     if (const std::string odd = odd_steps(times, *clock.times); !odd.empty()) clock.warnings.push_back(odd);
-    if (std::ranges::adjacent_find(times.values) != times.values.end())
+    if (std::adjacent_find(times.values.begin(), times.values.end()) != times.values.end())
         clock.notes.push_back(
             fmt::format("{}: its times repeat, so that a single row that is missing is not seen", described(times)));
     if (!numbers_rows(times, *clock.times))

@@ -182,18 +182,22 @@ std::string repeats(const TextColumn& column, const Steps& steps) {
                        percent(share), 1.0 / (1.0 - share));
 }
 
-// Samples that were lost and written as 0, here and there. Of values that noise parts so many are 0 by chance as
-// repeat, at most.
+// Samples that were lost and written as 0, here and there: far more rows than at the values beside 0 on its own grid.
+// Where nothing lies within half a usual step of 0, that step is the grid.
 std::string zeros(const TextColumn& column, const Steps& steps) {
-    constexpr double fewest = 0.002, noise = 8.0, often = 10.0;
-    auto n_zero = static_cast<double>(std::count(column.values.begin(), column.values.end(), 0.0));
+    constexpr double fewest = 0.002, noise = 8.0, often = 4.0, beside = 4.0;
+    if (steps.are_whole || steps.usual < noise * steps.least) return {};
+    double n_zero = 0.0, n_near = 0.0, n_beside = 0.0;
+    for (const double value : column.values) {
+        n_zero += value == 0.0;
+        n_near += value != 0.0 && std::fabs(value) <= steps.usual / 2.0;
+        n_beside += value != 0.0 && std::fabs(value) <= beside * steps.least;
+    }
     for (const Stretch& stretch : steps.stretches)
         if (column.values[stretch.from] == 0.0) n_zero -= static_cast<double>(stretch.n);
     const double share = n_zero / static_cast<double>(column.values.size());
-    if (share < fewest || share == 1.0 || steps.usual < noise * steps.least) return {};
-    if (share < often * steps.least / steps.usual) return {};
-    return fmt::format("{}: {} of its rows are exactly 0, far more than of any value beside it", described(column),
-                       percent(share));
+    if (share < fewest || n_near == 0.0 || n_zero <= often * n_beside) return {};
+    return fmt::format("{}: {} of its rows are exactly 0, as lost ones are", described(column), percent(share));
 }
 
 // The outermost values with their numbers of rows, from outside on.

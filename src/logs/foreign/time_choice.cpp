@@ -29,7 +29,7 @@ bool is_numbered(const ForeignColumn& column) {
     if (!column.is_number || column.is_part || !std::ranges::all_of(column.values, is_whole)) return false;
     LongColumn values = column.values;
     (void)go_on(values);
-    if (values.size() < 3 || !std::ranges::is_sorted(values)) return false;
+    if (values.size() < 3 || !std::is_sorted(values.begin(), values.end())) return false;
     const double usual = usual_step(values);
     std::size_t n = 0;
     for (std::size_t k = 1; k < values.size(); ++k) n += values[k] - values[k - 1] == usual ? 1u : 0u;
@@ -44,7 +44,8 @@ bool rises(const ForeignColumn& column) {
 // As a column that is called time does, with holes or not, and though it may begin anew.
 bool goes_on(const LongColumn& values) {
     if (values.size() < 2) return false;
-    return (values.front() < values.back() && std::ranges::is_sorted(values)) || begin_of_range(values) > 0.0;
+    return (values.front() < values.back() && std::is_sorted(values.begin(), values.end())) ||
+           begin_of_range(values) > 0.0;
 }
 
 // Numbers of rows by ones say nothing of times.
@@ -57,7 +58,7 @@ bool merely_numbers(const ForeignColumn& column) {
 
 bool is_said(const ForeignColumn& column, const ForeignTable& table, const Mapping& mapping) {
     std::vector<std::string> said = mapping.axes();
-    std::ranges::copy(mapping.raw_columns(), std::back_inserter(said));
+    for (std::string& one : mapping.raw_columns()) said.push_back(std::move(one));
     if (mapping.has("table_rate")) said.push_back(mapping.text("table_rate"));
     return std::ranges::any_of(said, [&](const auto& name) { return &column_named(table, name) == &column; });
 }

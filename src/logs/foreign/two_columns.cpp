@@ -43,16 +43,18 @@ template <class Values> double join(Values& whole, const Values& part, double pa
 // to so many. 0: they are no such pair.
 double parts_in(const ForeignColumn& whole, const ForeignColumn& part) {
     if (!whole.is_number || !part.is_number || whole.values.size() < 3) return 0.0;
-    if (!all_whole(whole.values) || !all_whole(part.values) || !std::ranges::is_sorted(whole.values)) return 0.0;
-    const double most = *std::ranges::max_element(part.values);
+    if (!all_whole(whole.values) || !all_whole(part.values) ||
+        !std::is_sorted(whole.values.begin(), whole.values.end()))
+        return 0.0;
+    const double most = *std::max_element(part.values.begin(), part.values.end());
     double parts = unit_behind(whole.name) == 1.0 ? unit_behind(part.name) : 0.0;
-    if (parts < 1e3 && !std::ranges::is_sorted(part.values))
+    if (parts < 1e3 && !std::is_sorted(part.values.begin(), part.values.end()))
         for (const double some : {1e3, 1e6, 1e9})
             if (most < some && most > some / 2.0) parts = some;
     if (parts < 1e3 || most >= parts) return 0.0;
     std::vector<double> times = whole.values;
     (void)join(times, part.values, parts);
-    return std::ranges::is_sorted(times) && times.front() < times.back() ? parts : 0.0;
+    return std::is_sorted(times.begin(), times.end()) && times.front() < times.back() ? parts : 0.0;
 }
 
 }  // namespace

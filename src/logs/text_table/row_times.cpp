@@ -77,8 +77,9 @@ const Unit* unnamed_unit(const RowTimes& times, double rate_hz) {
 
 bool rises_as_time(const LongColumn& values) {
     if (rises_evenly(values)) return true;
-    return values.size() >= many_rows &&
-           std::ranges::adjacent_find(values, [](double a, double b) { return !(b > a); }) == values.end();
+    return values.size() >= many_rows && std::adjacent_find(values.begin(), values.end(), [](double a, double b) {
+                                             return !(b > a);
+                                         }) == values.end();
 }
 
 std::optional<RowTimes> row_times(const TextColumn& column, const std::string& path, bool is_said,

@@ -29,7 +29,7 @@ bool may_be_fraction(const Field& field) {
     }
     // A date, a time of the day, a number with a point, a word of digits and letters.
     return rest.empty() || (std::string_view{".-:/"}.find(rest.front()) == std::string_view::npos &&
-                            std::ranges::none_of(rest, is_digit));
+                            !std::ranges::any_of(rest, is_digit));
 }
 
 // What the field before it ends in. Thousands may be parted by points there.

@@ -236,7 +236,7 @@ constexpr std::array<Separator, 5> separators{{{'\t', TextSeparator::tab, "tab"}
 const char* name_of(char separator) { return std::ranges::find(separators, separator, &Separator::letter)->name; }
 
 bool has_quoted_comma(PartedLines& lines) {
-    if (std::ranges::none_of(lines.lines(), [](const Line& line) { return line.text.find('"') != std::string::npos; }))
+    if (!std::ranges::any_of(lines.lines(), [](const Line& line) { return line.text.find('"') != std::string::npos; }))
         return false;
     return std::ranges::any_of(lines.rows(','), [](const std::vector<Field>& fields) {
         return std::ranges::any_of(fields, [](const Field& field) {

@@ -145,7 +145,7 @@ std::optional<double> unit_of(std::string_view name) {
 
 bool names_two_units(std::string_view name) {
     const std::vector<double> all = units_in(name);
-    return std::ranges::adjacent_find(all, std::ranges::not_equal_to{}) != all.end();
+    return std::adjacent_find(all.begin(), all.end(), std::not_equal_to{}) != all.end();
 }
 
 bool names_time(std::string_view column_name) {

@@ -66,11 +66,11 @@ std::string BiasCheck::complaint(const std::string& log_name) const {
             "counter may be missing, and the angle is wrong then",
             log_name, presumed_counts_, n_one_way_, n_pairs_, first_one_way_.before.counts, first_one_way_.half.counts,
             first_one_way_.before.half, first_one_way_.half.half);
-    if (!lasts_ && n_pairs_ >= lasting_halves && 20 * n_equal_ >= 19 * n_pairs_)
+    if (!lasts_ && n_pairs_ >= lasting_halves && 20 * n_equal_ >= 19 * n_pairs_ && presumed_counts_ >= 1.0)
         return fmt::format(
             "{}: the counter stands still: in {} of {} pairs of half-periods of opposite bias_sign the "
-            "counts are equal; a gyro with a bias never has that, and the angle is none",
-            log_name, n_equal_, n_pairs_);
+            "counts are equal, and {:.6g} of bias are presumed in each; the angle is none then",
+            log_name, n_equal_, n_pairs_, presumed_counts_);
     if (!lasts_) return {};
     const auto& [before, half] = first_wrong_;
     return fmt::format(
