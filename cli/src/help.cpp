@@ -91,7 +91,7 @@ const std::pair<const char*, std::vector<const char*>> kinds[]{
     {"", {"FILE"}},
     {"KEY=VALUE", {"--set", "--map"}},
     {"NUMBER", {"--seed", "--threads", "--baud", "--port", "--rate-arcsec-s"}},
-    {"SECONDS", {"--duration", "--give-up"}},
+    {"SECONDS", {"--duration"}},
     {"K/N", {"--part"}},
     {"h5|csv", {"--format"}},
     {"none|angles|all", {"--logs"}},

@@ -237,5 +237,3 @@ class Failing(CliTest):
     def test_what_cannot_be_followed(self):
         raw = self.write("raw.csv", csv_text(quiet_log()))
         self.refuse(USAGE, "process", raw, "--follow", "--out", self.folder / "a.h5", says=["--follow"])
-        for value in ("nan", "-1", "inf"):
-            self.refuse(USAGE, "process", raw, "--give-up", value, "--out", self.folder / "a.h5", says=[value])
