@@ -180,6 +180,11 @@ class Sensors(ForeignCase):
         # All questions come at once, as of the rows of one.
         self.refuse(2, "analyze", path, says=("--map sensor=GYRO or ACC", "'type'", "unit=... (of column 2, 'w'", "holds=", "rate_hz="))
 
+    def test_a_word_whose_rows_make_no_table_leaves_the_question(self):
+        kinds, w = self.by_turns(("GYRO", "ACC"))
+        path = self.table("i.csv", "type,w", ["INIT", *kinds], ["0.1", *w])
+        self.refuse(2, "analyze", path, says=("--map sensor=INIT or GYRO", "'type'"))
+
     def test_sentences(self):
         rows = []
         for k in range(1000):

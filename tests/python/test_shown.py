@@ -78,7 +78,8 @@ def test_a_log_goes_from_format_to_format_and_back(result, tmp_path):
     back = zlg.logs.read_raw(tmp_path / "c.h5")
     assert np.array_equal(back.counts, result.raw.counts) and back.settings == result.raw.settings
     assert np.array_equal(back.detuning_sq_lambda2, result.raw.detuning_sq_lambda2)
-    zlg.logs.write_angles(tmp_path / "angles.h5", result.angles)
+    zlg.logs.write_angles(tmp_path / "angles.csv", result.angles)
+    zlg.logs.write_angles(tmp_path / "angles.h5", zlg.logs.read_angles(tmp_path / "angles.csv"))
     assert np.array_equal(zlg.logs.read_angles(tmp_path / "angles.h5").sigma_arcsec, result.angles.sigma_arcsec)
     with pytest.raises(zlg.IoError, match="exists"):
         zlg.logs.write_raw(tmp_path / "b.csv", result.raw)

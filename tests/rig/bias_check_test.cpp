@@ -33,9 +33,9 @@ const std::function<double(int)> fast = [](int t) { return 300.0 * std::sin(0.00
 
 TEST(BiasCheck, right_columns_agree_whatever_the_rotation_and_the_gyro) {
     for (const auto& rotation : {CheckedGyro{}.rotation, vibration, fast})
-        for (const double bias_counts : {0.0, 3.0, 40.0, 150.0, 1000.0})
-            if (bias_counts > 0.0 || rotation(1000) > 1.0)
-                EXPECT_EQ(complaint({.bias_counts = bias_counts, .rotation = rotation}), "");
+        for (const double bias_counts : {3.0, 40.0, 150.0, 1000.0})
+            EXPECT_EQ(complaint({.bias_counts = bias_counts, .rotation = rotation}), "");
+    for (const auto& rotation : {vibration, fast}) EXPECT_EQ(complaint({.bias_counts = 0.0, .rotation = rotation}), "");
 }
 
 TEST(BiasCheck, a_counter_that_stands_still_is_named_and_a_slow_one_is_not) {

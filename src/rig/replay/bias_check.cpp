@@ -69,7 +69,7 @@ std::string BiasCheck::complaint(const std::string& log_name) const {
     if (!lasts_ && n_pairs_ >= lasting_halves && 20 * n_equal_ >= 19 * n_pairs_ && presumed_counts_ >= 1.0)
         return fmt::format(
             "{}: the counter stands still: in {} of {} pairs of half-periods of opposite bias_sign the "
-            "counts are equal, and {:.6g} of bias are presumed in each; the angle is none then",
+            "counts are equal, and {:.6g} of bias are presumed in each; the angle is no measurement",
             log_name, n_equal_, n_pairs_, presumed_counts_);
     if (!lasts_) return {};
     const auto& [before, half] = first_wrong_;
