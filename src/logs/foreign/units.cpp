@@ -82,14 +82,7 @@ std::string without_factor(std::string_view text) {
     return unit.substr(begin, unit.find_last_not_of("eExX/_") + 1 - begin);
 }
 
-template <class Reads> std::optional<AngleUnit> first_unit(std::string_view name, const Reads& reads) {
-    for (const std::string_view place : unit_places(name))
-        if (const auto unit = reads(place)) return unit;
-    return std::nullopt;
-}
-
-}  // namespace
-
+// The parts of a column's name that may be its unit, the likeliest first: in brackets, or behind the last underscores.
 std::vector<std::string_view> unit_places(std::string_view name) {
     std::vector<std::string_view> places;
     std::size_t open = name.find_first_of("[(");
@@ -106,6 +99,14 @@ std::vector<std::string_view> unit_places(std::string_view name) {
     if (places.size() > 2) places.erase(places.begin(), places.end() - 2);
     return places;
 }
+
+template <class Reads> std::optional<AngleUnit> first_unit(std::string_view name, const Reads& reads) {
+    for (const std::string_view place : unit_places(name))
+        if (const auto unit = reads(place)) return unit;
+    return std::nullopt;
+}
+
+}  // namespace
 
 std::optional<AngleUnit> unit_named(std::string_view word) {
     const std::string usual = usual_spelling(word);

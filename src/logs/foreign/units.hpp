@@ -17,9 +17,6 @@ struct AngleUnit {
     bool of_counts = false;  // times what a count is worth
 };
 
-// The parts of a column's name that may be its unit, the likeliest first: in brackets, or behind the last underscores.
-[[nodiscard]] std::vector<std::string_view> unit_places(std::string_view column_name);
-
 // deg/s, dps, rad_s, arcsec and the like, in any case but that of M, mega; empty where it is none.
 [[nodiscard]] std::optional<AngleUnit> unit_named(std::string_view word);
 
