@@ -194,7 +194,7 @@ class Hdf5(Hostile):
             self.refuse(2, "analyze", path, "--map", f"axis={name}", *W[2:], says=(f"'{name}' is left out", why))
 
     def test_many_small_chunks_are_right(self):
-        rates = self.rates(30000)
+        rates = self.rates(10000)
         path = self.hdf5(lambda file: file.create_dataset("w", data=numpy.column_stack([rates, -rates]), chunks=(1, 1), compression="gzip"))
         self.cheap("import", path, "--out", self.folder / "o.csv", *W, *FIXED_RATE, code=0)
         self.assert_turns(self.angles(path, *W, *FIXED_RATE), -rates / 100)
