@@ -6,12 +6,11 @@ import resource
 import signal
 import subprocess
 import time
-from pathlib import Path
 
 import h5py
 import numpy
 
-from support import ZLG, CliTest, body_of, csv_text, is_larger, quiet_log, run, wait_until
+from support import ZLG, CliTest, body_of, csv_text, quiet_log, run, wait_until
 
 INPUT, USAGE = 3, 2
 UNITS = {"half": "1", "bias_sign": "1", "mode": "1", "counts": "count", "loop_closed": "1", "valid": "1", "span": "1", "lit": "1",
@@ -152,37 +151,6 @@ class Interrupted(CliTest):
         self.assertTrue((self.folder / "killed.h5.part").exists())
 
 
-class Followed(CliTest):
-    def test_angles_of_a_growing_log_are_those_of_the_complete_one(self):
-        raw, live = self.folder / "raw.h5", self.folder / "live.h5"
-        writer = subprocess.Popen([ZLG, "simulate", "--duration", "1500", "--out", raw], stdout=subprocess.DEVNULL)
-        part = self.folder / "raw.h5.part"
-        wait_until(lambda: is_larger(part, 1_000_000), writer)
-        # It stands still until the follower has come, or the log might be complete by then.
-        writer.send_signal(signal.SIGSTOP)
-        follower = subprocess.Popen([ZLG, "process", part, "--follow", "--out", live], stderr=subprocess.PIPE, text=True)
-        wait_until((self.folder / "live.h5.part").exists, follower)
-        self.assertTrue(part.exists())
-        writer.send_signal(signal.SIGCONT)
-        self.assertEqual(writer.wait(), 0)
-        stderr = follower.communicate(timeout=60)[1]
-        self.assertEqual((follower.returncode, stderr), (0, ""))
-        self.succeed("process", raw, "--out", self.folder / "after.h5")
-        ours, theirs = columns(live, "angles"), columns(self.folder / "after.h5", "angles")
-        for name in ours:
-            self.assertTrue(numpy.array_equal(ours[name], theirs[name]), name)
-
-    def test_it_gives_up_where_nothing_comes(self):
-        raw = self.folder / "raw.h5"
-        writer = subprocess.Popen([ZLG, "simulate", "--duration", "30000", "--out", raw], stdout=subprocess.DEVNULL)
-        wait_until(lambda: is_larger(Path(f"{raw}.part"), 1_000_000), writer)
-        writer.kill()
-        writer.wait()
-        result = run("process", f"{raw}.part", "--follow", "--out", self.folder / "a.h5")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("nothing was added", result.stderr)
-
-
 class Failing(CliTest):
     @staticmethod
     def small_files():
@@ -233,7 +201,3 @@ class Failing(CliTest):
         self.succeed("inspect", strange, "--repair")
         found = json.loads(self.succeed("inspect", self.folder / "strange.repaired.csv", "--json").stdout)
         self.assertEqual((found["scale_arcsec"], found["halves"]), (2.0, 80))
-
-    def test_what_cannot_be_followed(self):
-        raw = self.write("raw.csv", csv_text(quiet_log()))
-        self.refuse(USAGE, "process", raw, "--follow", "--out", self.folder / "a.h5", says=["--follow"])

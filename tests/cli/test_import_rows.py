@@ -70,6 +70,31 @@ class Rows(Foreign):
         there = numpy.sort(self.rng.permutation(self.N + 40)[:self.N])  # by chance they are missing
         self.assertEqual(self.mean(self.stamped(k, there))[1]["known"], self.N)
 
+    def test_rows_that_are_missing_are_seen_at_any_rate_by_stamps_of_milliseconds(self):
+        for rate in (96.8, 300, 300.3, 333):
+            lost = numpy.sort(self.rng.choice(numpy.arange(5, self.N - 5), 7, replace=False))
+            there = numpy.delete(numpy.arange(self.N), lost)
+            log = self.angles(self.stamped(there, numpy.floor(1000 * there / rate)), rows=self.N)
+            self.assertEqual([k for k in range(self.N) if log.has(k, "invalid")], lost.tolist(), rate)
+            numpy.testing.assert_allclose(numpy.array(log.dtheta)[there], self.w[there] * self.ARCSEC / rate, rtol=2e-6)  # 1/0.00333 is 300.3003
+
+    def test_rows_that_are_missing_by_chance_do_not_hide_another_rate(self):
+        self.w = self.rng.normal(0.03, 0.001, 10_000)
+        there = numpy.delete(numpy.arange(10_000), self.rng.choice(numpy.arange(1, 9_999), 12, replace=False))
+        for rate, is_open in ((997, True), (1000, False)):
+            path = self.stamped(there, numpy.floor(1000 * there / rate))
+            if is_open:
+                self.refuse(3, "import", path, "--out", self.folder / "o.csv", says=("are missing; allowed is one of both: --map rate_hz=",))
+            else:
+                self.angles(path, rows=10_000)
+
+    def test_of_many_missing_rows_the_rate_must_be_said(self):
+        there = numpy.flatnonzero(self.rng.random(self.N) > 0.15)
+        path = self.stamped(there, 10 * there)
+        self.refuse(3, "import", path, "--out", self.folder / "o.csv", says=("--map rate_hz=... if",))
+        log = self.angles(path, "--map", "rate_hz=100")
+        self.assertEqual([k - there[0] for k in there], [k for k in range(len(log.dtheta)) if not log.has(k, "invalid")])
+
     def test_seconds_since_1970_that_are_rounded_to_milliseconds(self):
         for rate in (700, 800, 909):
             rows = "".join(f"{1764384000 + k / rate:.3f},{w:.17g}\n" for k, w in enumerate(self.w))

@@ -4,13 +4,15 @@ import math
 import shutil
 import signal
 import socket
+import subprocess
 import time
 import unittest
 from pathlib import Path
 
 import h5py
+import numpy
 from lab_server import Events, LabServer, Line
-from support import ROOT, AngleLog, CliTest, folder_until, run, wait_until
+from support import ROOT, ZLG, AngleLog, CliTest, folder_until, is_larger, run, wait_until
 
 PAGE = ROOT / "build" / "release" / "share" / "zlg" / "lab.html"
 
@@ -119,6 +121,23 @@ class LabFollow(CliTest):
             n += len(news["rows"])
         # Those that were not settled when the line fell silent come with the end of the log.
         self.assertEqual(n, len(AngleLog(self.converted(out)).rows))
+
+    def test_angles_of_a_raw_log_that_grows_are_those_of_the_complete_one(self):
+        raw, part, live, after = (self.folder / name for name in ("raw.h5", "raw.h5.part", "live.h5", "after.h5"))
+        writer = subprocess.Popen([ZLG, "simulate", "--duration", "1500", "--out", raw], stdout=subprocess.DEVNULL)
+        wait_until(lambda: is_larger(part, 1_000_000), writer)
+        # It stands still until the follower has come, or the log might be complete by then.
+        writer.send_signal(signal.SIGSTOP)
+        server = self.serve(part, "--out", live)
+        self.assertTrue(part.exists())
+        writer.send_signal(signal.SIGCONT)
+        self.assertEqual(writer.wait(), 0)
+        wait_until(live.exists)
+        self.assertEqual(server.end()[0], 0)
+        self.succeed("process", raw, "--out", after)
+        with h5py.File(live) as ours, h5py.File(after) as theirs:
+            for name in theirs["angles"]:
+                self.assertTrue(numpy.array_equal(ours["angles"][name], theirs["angles"][name], equal_nan=True), name)
 
     def converted(self, log):
         back = self.folder / "back.csv"

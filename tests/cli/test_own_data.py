@@ -130,7 +130,6 @@ class OwnLogs(CliTest):
             self.assertRegex(run("inspect", log).stdout, r"tick_s +not given")
         config = self.write("gyro.toml", "[gyro]\ntick_s = 0.005\nscale_arcsec = 3.263\n")
         self.succeed("process", raw, "--out", out, "--force", "--config", config)
-        self.refuse(2, "process", h5, "--follow", "--out", self.folder / "f.csv", says=both)
 
     def test_an_angle_log_says_its_tick_or_the_user_does(self):
         out = self.folder / "angles.csv"

@@ -128,7 +128,7 @@ TEST(Units, are_known_by_many_spellings) {
     EXPECT_EQ(unit_in_name("gyro_z_dps")->arcsec, 3600.0);
     EXPECT_EQ(unit_in_name("rate_deg_s")->arcsec, 3600.0);
     EXPECT_EQ(unit_in_name("w (arcsec/s)")->name, "arcsec/s");
-    for (const char* none : {"w", "omega", "w [V]", "deg", "temperature_c", "a [m/s]"})
+    for (const char* none : {"w", "omega", "w [V]", "deg", "temperature_c", "a [m/s]", "wz\xC2\xB2 [deg/s]"})
         EXPECT_FALSE(unit_in_name(none)) << none;
 }
 

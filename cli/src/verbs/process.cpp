@@ -1,8 +1,6 @@
 #include <array>
 #include <bit>
-#include <chrono>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -36,7 +34,6 @@ namespace {
 struct ProcessOptions : Options {
     std::string raw;
     std::string switches;  // file for the table of switches; empty: none
-    bool follow = false;
 };
 
 // The table of switches in a file of its own.
@@ -97,34 +94,7 @@ struct Summary {
 // Every so many halves a signal is looked for and the progress shown.
 constexpr std::int64_t stride_halves = 100'000;
 
-// Waits for rows that are still being written; false where the log is complete, or nothing came for too long.
-bool wait_for_rows(logs::RawReader& raw, const ProcessOptions& options) {
-    using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::seconds longest{10};
-    const auto until = Clock::now() + longest;
-    while (!raw.refresh()) {
-        check_interrupt();
-        if (raw.header().complete) return false;
-        if (Clock::now() > until) {
-            complain(fmt::format("warning: {}: nothing was added for {} s; its writer may have been interrupted",
-                                 options.raw, longest.count()));
-            return false;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds{20});
-    }
-    return true;
-}
-
-// The next row of a log that grows. What is known by now is shown to those who follow the angles.
-bool follow(logs::RawReader& raw, core::HalfRecord& record, logs::AngleWriter& angles, const ProcessOptions& options,
-            Progress& progress) {
-    angles.flush();
-    progress.show(raw.fraction_read());
-    return wait_for_rows(raw, options) && raw.next(record);
-}
-
-Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter& angles, Switches& switches,
-                   const ProcessOptions& options) {
+Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter& angles, Switches& switches) {
     Summary summary;
     core::HalfRecord record;
     Progress progress;
@@ -135,7 +105,7 @@ Summary compensate(logs::RawReader& raw, rig::Replay& replay, logs::AngleWriter&
         angles.write(row);
     };
     const auto note = [&](const core::GapReport& gap) { switches.take(gap); };
-    while (raw.next(record) || (options.follow && follow(raw, record, angles, options, progress))) {
+    while (raw.next(record)) {
         switches.take(record);
         replay.take(record, has_light ? raw.light() : core::LightSamples{}, write, note);
         if (replay.halves() % stride_halves != 0) continue;
@@ -176,11 +146,6 @@ void process(const ProcessOptions& options) {
         refuse_own_input(options.raw, options.switches, "--switches");
         refuse_same_output(options.switches, options.out, "--switches");
     }
-    if (options.follow && is_mapped(options))
-        throw UsageError{"--follow: a mapping reads whole files; allowed is a log of zlg"};
-    if (options.follow && logs::recognise(options.raw) == logs::LogKind::raw_csv)
-        throw UsageError{
-            fmt::format("--follow: {} is a CSV log; allowed is HDF5, which can be read while it grows", options.raw)};
     std::size_t n_warnings = 0;
     logs::RawReader raw = open_raw(options, options.raw, &n_warnings);
     const recorded::LogCompensation asked = log_compensation(options, raw.header(), options.raw);
@@ -189,12 +154,12 @@ void process(const ProcessOptions& options) {
     rig::Replay replay{asked.compensation};
     Switches switches{options, asked.config};
     logs::AngleWriter angles{options.out, asked.config.gyro.tick_s, rig::angle_settings(asked.config), options.force};
-    const Summary summary = compensate(raw, replay, angles, switches, options);
+    const Summary summary = compensate(raw, replay, angles, switches);
     recorded::require_a_tick(replay, options.raw);
     if (const std::string odd = replay.odd_half(options.raw); !odd.empty()) complain("warning: " + odd);
     if (asked.lacks_detuning) warn_uncorrected(replay, options.raw);
     for (const std::string& wrong : replay.contradictions(options.raw)) complain("warning: " + wrong);
-    if (!raw.header().complete && !options.follow)
+    if (!raw.header().complete)
         complain(fmt::format("warning: {}: was not closed by its writer; its whole rows are taken", options.raw));
     if (!raw.line_is_ended())
         complain(fmt::format("warning: {}: the last line has no end; the file may have been cut off", options.raw));
@@ -214,8 +179,6 @@ void add_process(CLI::App& program) {
                      "raw log, or a file of another program with counts (zlg import says what it is)")
         ->required();
     verb->add_option("--switches", options->switches, "one row per switch, CSV");
-    verb->add_flag("--follow", options->follow,
-                   "go on while the log (HDF5) is being written, until it is complete or nothing came for 10 s");
     add_mapping_options(*verb, *options);
     add_strict_option(*verb, *options);
     add_config_options(*verb, *options);

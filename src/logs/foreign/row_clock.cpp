@@ -17,14 +17,17 @@ namespace zlg::logs {
 
 namespace {
 
-// The number with the fewest digits that the times allow, and that leaves the rate to a thousandth.
-double simplest(double step, double allowed) {
+// The step that has, or whose rate has, the fewest digits that the times allow, and that leaves the rate to a
+// thousandth.
+double simplest(double step_s, double allowed) {
     const double tolerance = std::min(allowed, 1e-3);
-    for (int digits = 1; digits < 17; ++digits) {
-        const double rounded = std::strtod(fmt::format("{:.{}e}", step, digits - 1).c_str(), nullptr);
-        if (std::fabs(rounded - step) <= tolerance * step) return rounded;
-    }
-    return step;
+    const auto rounded = [](double value, int digits) {
+        return std::strtod(fmt::format("{:.{}e}", value, digits - 1).c_str(), nullptr);
+    };
+    for (int digits = 1; digits < 17; ++digits)
+        for (const double simple_s : {rounded(step_s, digits), 1.0 / rounded(1.0 / step_s, digits)})
+            if (std::fabs(simple_s - step_s) <= tolerance * step_s) return simple_s;
+    return step_s;
 }
 
 // The rows about a hole must be as far apart as their number says, the missing ones with them: stamps that come late
@@ -167,36 +170,61 @@ Place coarse_place(const LongColumn& t, double step) {
     return {are_multiples && tick > 0.2 * step ? tick : 0.0, false, digit};
 }
 
-// Of the strip about an even course that holds all times; convex in the step.
-double width_about(const LongColumn& t, double step) {
+// Of the strip about an even course, with these holes, that holds all times; convex in the step.
+double width_about(const LongColumn& t, double step, const std::vector<Hole>& holes) {
     const double first = t.front();
-    double low = 0.0, high = 0.0;
+    double low = 0.0, high = 0.0, n_missing = 0.0;
+    auto hole = holes.begin();
     for (std::size_t k = 0; k < t.size(); ++k) {
-        const double late = t[k] - first - step * static_cast<double>(k);
+        const double late = t[k] - first - step * (static_cast<double>(k) + n_missing);
         low = std::min(low, late);
         high = std::max(high, late);
+        if (hole != holes.end() && hole->row == k) n_missing += static_cast<double>((hole++)->n_missing);
     }
     return high - low;
 }
 
-// Rows from one step that is a place longer to the next, where most are as many; 0: they are not, as those of rows that
-// are missing by chance.
-double regular_gap(const LongColumn& t, double step, double far, double place) {
-    constexpr std::size_t fewest = 6;
-    std::vector<double> gaps;
-    std::size_t last = 0;
-    for (std::size_t k = 1; k < t.size(); ++k) {
-        const double longer = t[k] - t[k - 1] - step;
-        if (!(longer > far && longer < 1.5 * place)) continue;
-        if (last > 0) gaps.push_back(static_cast<double>(k - last));
-        last = k;
+struct EvenCourse {
+    double step = 0.0;
+    double width = 0.0;
+};
+
+// The one in the narrowest strip, of those as far from the mean step as a place at the ends allows.
+EvenCourse narrowest(const LongColumn& t, double place, const std::vector<Hole>& holes, std::int64_t n_missing) {
+    const double n_steps = static_cast<double>(t.size() - 1) + static_cast<double>(n_missing);
+    double least = (t.back() - t.front() - place) / n_steps, most = (t.back() - t.front() + place) / n_steps;
+    for (int pass = 0; pass < 40; ++pass) {
+        const double lower = least + (most - least) / 3.0, upper = most - (most - least) / 3.0;
+        if (width_about(t, lower, holes) < width_about(t, upper, holes))
+            most = upper;
+        else
+            least = lower;
     }
-    if (gaps.size() < fewest) return 0.0;
-    const auto middle = gaps.begin() + std::ssize(gaps) / 2;
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    const double usual = *middle, slack = std::max(1.0, 0.02 * usual);
-    const auto n = std::ranges::count_if(gaps, [&](double gap) { return std::fabs(gap - usual) <= slack; });
-    return n >= static_cast<std::ptrdiff_t>(fewest) && 5 * n >= 3 * std::ssize(gaps) ? usual : 0.0;
+    return {(least + most) / 2.0, width_about(t, (least + most) / 2.0, holes)};
+}
+
+// Rows from one step that is a place longer to the next, where such steps come at even times, as those of rows that are
+// no whole number of places apart do, whatever else is missing between them; 0: they do not.
+double regular_gap(const LongColumn& t, double step, double far, double place) {
+    constexpr std::size_t fewest = 6, most_tried = 64;
+    std::vector<double> at;
+    for (std::size_t k = 1; k < t.size(); ++k)
+        if (const double longer = t[k] - t[k - 1] - step; longer > far && longer < 1.5 * place) at.push_back(t[k]);
+    const double reach = step + place / 2.0;
+    for (std::size_t first = 0; first + 1 < std::min(at.size(), most_tried); ++first) {
+        const double period = at[first + 1] - at[first];
+        if (period < 2.0 * reach) continue;
+        std::size_t n_met = 0;
+        double n_expected = 0.0;
+        for (double next = at[first] + period; next <= at.back() + reach; next += period, n_expected += 1.0) {
+            const auto found = std::lower_bound(at.begin(), at.end(), next - reach);
+            if (found == at.end() || *found > next + reach) continue;
+            ++n_met;
+            next = *found;
+        }
+        if (n_met >= fewest && static_cast<double>(n_met) >= 0.8 * n_expected) return (period - place) / step;
+    }
+    return 0.0;
 }
 
 // Rounded stamps of rows that are no whole number of places apart show rows that are missing only where the stamps are
@@ -214,37 +242,39 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
     // once in 12^12/12!, 20 000.
     constexpr std::size_t fewest_even = 12;
     const bool are_few = 10 * n_odd < t.size();
-    const double gap = are_few ? regular_gap(t, found.step, far, place) : 0.0;
+    const double gap = regular_gap(t, found.step, far, place);
     if (n_odd < 3 || (are_few && n_odd < fewest_even && gap == 0.0)) return;
-    const double n_steps = static_cast<double>(t.size() - 1);
-    double least = mean - place / n_steps, most = mean + place / n_steps;
-    for (int pass = 0; pass < 40; ++pass) {
-        const double lower = least + (most - least) / 3.0, upper = most - (most - least) / 3.0;
-        if (width_about(t, lower) < width_about(t, upper))
-            most = upper;
-        else
-            least = lower;
-    }
-    const double step = (least + most) / 2.0;
-    const bool is_even = width_about(t, step) <= 1.01 * place + digit;
-    if (are_few) {
-        const double other = is_even ? step : found.step + place / gap;
-        if ((!is_even && gap == 0.0) || (said > 0.0 && std::fabs(said - found.step) < std::fabs(said - other))) return;
+    const auto even = narrowest(t, place, {}, 0);
+    const auto is_even = [&](const EvenCourse& course) { return course.width <= 1.01 * place + digit; };
+    if (are_few && gap == 0.0 && !is_even(even)) return;
+    // Of rows that are no whole number of places apart a step that is a place longer is no hole.
+    const double whole = place * std::round(found.step / place);
+    const bool is_whole = gap == 0.0 || std::fabs(found.step - whole) < 0.5 * place / gap;
+    if (are_few && is_whole) {
+        const double other = is_even(even) ? even.step : whole + place / gap;
+        if (said > 0.0 && std::fabs(said - found.step) < std::fabs(said - other)) return;
         if (said == 0.0)
             throw FormatError(fmt::format(
                 "{}, {}: its times, rounded to {:g}, are those of rows {:.6g} apart, and of rows {:.6g} apart of which "
                 "{} are missing; allowed is one of both: --map rate_hz=... with time_unit=...",
                 path, described(times), place, other, found.step, found.n_missing));
     }
-    if (is_even) {
-        found = {.step = step, .tolerance = 1e-3 + 2.0 * place / (t.back() - t.front()), .holes = {}, .n_missing = 0};
+    const double tolerance = 1e-3 + 2.0 * place / (t.back() - t.front());
+    if (is_even(even)) {
+        found = {.step = even.step, .tolerance = tolerance, .holes = {}, .n_missing = 0};
         return;
     }
-    if (!is_decimal && gap == 0.0) return;
+    if (const auto course = narrowest(t, place, found.holes, found.n_missing); !is_whole && is_even(course)) {
+        found.step = course.step;
+        found.tolerance = tolerance;
+        return;
+    }
+    const bool is_said = said > 0.0 && std::fabs(said / found.step - 1.0) <= found.tolerance;
+    if ((!is_decimal && !(are_few && gap > 0.0)) || is_said) return;
     throw FormatError(fmt::format(
         "{}, {}: its times are rounded to {:g}, with rows about {:.6g} apart, and not even, so that they do not "
-        "say which rows are missing; --map time=none and --map rate_hz=... if none are",
-        path, described(times), place, found.step));
+        "say which rows are missing; --map rate_hz=... if {} are, and time=none too if none are",
+        path, described(times), place, found.step, found.n_missing));
 }
 
 // Of the steps from row to row, holes left out, many are far from the median.

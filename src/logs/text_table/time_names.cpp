@@ -115,7 +115,7 @@ std::optional<double> time_unit(std::string_view word) {
 bool names_factor(std::string_view full_name) {
     const std::string plain = without_powers(full_name);
     const std::string_view name = plain;
-    for (const std::string_view sign : {"*", "^", "\xC3\x97", "\xC2\xB7"})
+    for (const std::string_view sign : {"*", "^", "\xC3\x97", "\xC2\xB7", "\xC2\xB2"})
         if (name.find(sign) != std::string_view::npos) return true;
     const std::size_t bracket = std::min(name.find_first_of("[(<"), name.size());
     if (std::ranges::any_of(name.substr(bracket), is_unit_digit)) return true;
