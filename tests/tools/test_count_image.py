@@ -36,7 +36,7 @@ class Limits(unittest.TestCase):
                           ("background", "estimate in the background"), ("flash", "flash"),
                           ("memory", "memory"), ("stack_used", "stack used")):
             with self.subTest(key):
-                found = count_image.missed_limits(table(**{key: {"worst": 30000, "typical": 3240, "background": 8000000, "flash": 212992,
+                found = count_image.missed_limits(table(**{key: {"worst": 30000, "typical": 3200, "background": 8000000, "flash": 212992,
                                                                  "memory": 122880, "stack_used": 16384}[key]}))
                 self.assertEqual([line.partition(":")[0] for line in found], [name])
 

@@ -1,7 +1,5 @@
 #include <zlg/core/control/bias_monitor.hpp>
 
-#include <zlg/core/common/as_double.hpp>
-
 #include "common/bounds.hpp"
 
 namespace zlg::core {
@@ -16,7 +14,7 @@ constexpr double bias_followed = 1.0 / 256.0;
 constexpr std::int32_t reversed_debounce = 4;
 
 // Differences of larger counts could overflow, and no gyro has them.
-constexpr std::int64_t max_exact_counts = std::int64_t{1} << 53;
+constexpr double max_exact_counts = 0x1p53;
 
 // The static lock-in zone of a gyro whose threshold is half a hundredth of its bias, several times over.
 constexpr double near_rate_ratio = 0.03;
@@ -58,7 +56,7 @@ void learn(const MonitorLimits& c, BiasMonitorState& s, double b, bool in_band) 
     average(s.bias_counts, s.n_learnt, b, 0.25 * s.bias_counts);
 }
 
-void remember(BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign) noexcept {
+void remember(BiasMonitorState& s, double counts, std::int8_t beat_sign) noexcept {
     count_up(s.n_known);
     s.beat_sign = beat_sign;
     s.counts_long_before = s.counts_before;
@@ -66,14 +64,14 @@ void remember(BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign) n
     s.counts = counts;
 }
 
-void compare(const MonitorLimits& c, BiasMonitorState& s, std::int64_t counts, std::int8_t beat_sign, bool settled,
+void compare(const MonitorLimits& c, BiasMonitorState& s, double counts, std::int8_t beat_sign, bool settled,
              BiasMonitorOutput& out) noexcept {
-    const double twice_b = as_double(counts - s.counts) * beat_sign;
+    const double twice_b = (counts - s.counts) * beat_sign;
     const double bias = s.bias_counts;
     out.judged = s.n_learnt >= bias_learning_halves;
     if (out.judged) {
         const bool smooth = settled && s.n_known >= 3;
-        const double change = smooth ? size(as_double(s.counts - s.counts_long_before)) : 0.0;
+        const double change = smooth ? size(s.counts - s.counts_long_before) : 0.0;
         const double fine = bias / 6.0 + change;
         const double tolerance = smooth && fine < bias ? fine : bias;
         out.in_band = size(twice_b - 2.0 * bias) <= tolerance;
@@ -82,7 +80,7 @@ void compare(const MonitorLimits& c, BiasMonitorState& s, std::int64_t counts, s
         out.reversed = debounced(s.n_reversed, reversed, reversed_debounce);
         out.deficit_ratio = smooth ? 1.0 - 0.5 * twice_b / bias : 0.0;
         out.lost = !out.in_band && size(twice_b) < bias;
-        out.near_rate = out.in_band && size(as_double(counts)) < near_rate_ratio * bias;
+        out.near_rate = out.in_band && size(counts) < near_rate_ratio * bias;
     } else {
         // What was never there is not learnt.
         out.lost = settled && size(twice_b) < 0.25 * c.bias_counts;
@@ -92,11 +90,11 @@ void compare(const MonitorLimits& c, BiasMonitorState& s, std::int64_t counts, s
 
 }  // namespace
 
-BiasMonitorOutput step(const MonitorLimits& limits, BiasMonitorState& state, bool counted, std::int64_t counts,
+BiasMonitorOutput step(const MonitorLimits& limits, BiasMonitorState& state, bool counted, double counts,
                        std::int8_t beat_sign, bool settled) noexcept {
     BiasMonitorOutput out;
     if (!(limits.bias_counts >= min_bias_counts)) return out;
-    if (!counted || counts > max_exact_counts || counts < -max_exact_counts) {
+    if (!counted || size(counts) > max_exact_counts) {
         state.n_known = 0;
         return out;
     }

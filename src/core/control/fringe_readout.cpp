@@ -1,6 +1,5 @@
 #include <zlg/core/control/fringe_readout.hpp>
 
-#include <zlg/core/common/as_double.hpp>
 #include <zlg/core/common/maths.hpp>
 
 #include "common/bounds.hpp"
@@ -134,7 +133,7 @@ QuadratureSample at_usual_amplitude(const FringeReadoutState& s, const Quadratur
 
 // What d is in the sense of the beat, on average.
 double usual_off_turns(const FringeReadoutConfig& c, const FringeReadoutInput& in) noexcept {
-    const double against_counts = -0.5 * in.sign * as_double(in.rotation_counts);
+    const double against_counts = -0.5 * in.sign * in.rotation_counts;
     if (!(against_counts > 0.0)) return c.lag_turns;
     const double back_turns = c.turned_back_turns * against_counts * against_counts;
     return back_turns < 2.0 * c.lag_turns ? c.lag_turns - back_turns : -c.lag_turns;

@@ -45,7 +45,8 @@ void read_counter(const GyroControlConfig& c, GyroControlState& s, Observation& 
     if (o.counted) o.counts = static_cast<std::int64_t>(o.fringe.counter - s.counter);
     if (o.order.fresh) s.counter = o.fringe.counter;
     o.max_counts = length_ratio(c.commutator, s.commutator) * as_double(c.limits.counts);
-    o.beyond = size(as_double(o.counts)) > o.max_counts;
+    o.real_counts = as_double(o.counts);
+    o.beyond = size(o.real_counts) > o.max_counts;
 }
 
 void read_echoes(const GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
@@ -63,7 +64,7 @@ void read_echoes(const GyroControlState& s, const SensorFrame& frame, Observatio
 
 void read_bias(const GyroControlConfig& c, GyroControlState& s, const SensorFrame& frame, Observation& o) noexcept {
     const bool good = o.counted && !o.beyond && !o.commuted.sign_error && !o.polarity_error;
-    o.bias = step(c.limits, s.bias_monitor, good, o.counts, o.beat_sign, o.settled && s.was_lit);
+    o.bias = step(c.limits, s.bias_monitor, good, o.real_counts, o.beat_sign, o.settled && s.was_lit);
     // A half without light makes the difference to the next one meaningless.
     const bool was_lit = s.was_lit || (o.loop_closed && s.was_steady);
     o.bias_wrong = o.bias.judged && !o.bias.in_band && was_lit;
@@ -141,7 +142,7 @@ void read_slow(GyroControlState& s, const SensorFrame& frame, Observation& o) no
 // Half of the bias is gone, or it is that of the other helicity: b by the last two halves. A wrong reading seldom looks
 // so. Asked only while a reading waits for its judgement.
 bool is_lost_or_reversed(const BiasMonitorState& s) noexcept {
-    const double b = 0.5 * s.beat_sign * as_double(s.counts - s.counts_before);
+    const double b = 0.5 * s.beat_sign * (s.counts - s.counts_before);
     return b < 0.5 * s.bias_counts && b > -1.25 * s.bias_counts;
 }
 

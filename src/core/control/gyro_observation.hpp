@@ -27,7 +27,8 @@ struct Observation {
     bool settled = false;  // and locked
     FringeReadoutOutput fringe;
     std::int64_t counts = 0;
-    double max_counts = 0.0;  // of a half of this length
+    double real_counts = 0.0;  // the same number
+    double max_counts = 0.0;   // of a half of this length
     ReadingMonitorOutput reading;
     bool left_to_next = false;  // its counts are part of those of the next valid half
     BiasCommutatorOutput commuted;

@@ -21,7 +21,7 @@ public:
         const auto now = static_cast<std::int64_t>(std::floor(phase_));
         const std::int64_t counts = now - last_;
         last_ = now;
-        return step(c, state, true, counts, sign_, settled);
+        return step(c, state, true, static_cast<double>(counts), sign_, settled);
     }
     // The last of n halves; with a bias that it keeps.
     BiasMonitorOutput after(int n) {
@@ -190,7 +190,7 @@ TEST(BiasMonitor, HalvesThatWereNotCountedBreakTheRow) {
     EXPECT_FALSE(step(config, counter.state, false, 0, 1, false).judged);
     EXPECT_FALSE(counter.half().judged);
     EXPECT_TRUE(counter.half().judged);
-    const std::int64_t most = std::numeric_limits<std::int64_t>::min();
+    const auto most = static_cast<double>(std::numeric_limits<std::int64_t>::min());
     EXPECT_FALSE(step(config, counter.state, true, most, 1, false).judged);
 }
 

@@ -20,10 +20,10 @@ struct Electronics {
     FringeReadoutConfig c = config;
     FringeReadoutState state;
     double noise = 0.01;
-    double lag_turns = 0.0;            // the counter shows this much less
-    double skew_turns = 0.0;           // the samples show this much less in the sense of the beat
-    std::int64_t rotation_counts = 0;  // of a tick
-    double turned_back_turns = 0.0;    // by such a rotation, in halves whose beat it runs against
+    double lag_turns = 0.0;          // the counter shows this much less
+    double skew_turns = 0.0;         // the samples show this much less in the sense of the beat
+    double rotation_counts = 0.0;    // of a tick
+    double turned_back_turns = 0.0;  // by such a rotation, in halves whose beat it runs against
     std::int64_t half = 0;
     std::mt19937_64 engine{3};
     std::normal_distribution<double> normal{};
@@ -31,8 +31,7 @@ struct Electronics {
     FringeReadoutInput input(double turns) {
         const int sign = half % 2 == 0 ? 1 : -1;
         const double seen = turns - sign * skew_turns;
-        const double back =
-            static_cast<double>(sign) * static_cast<double>(rotation_counts) < 0.0 ? turned_back_turns : 0.0;
+        const double back = static_cast<double>(sign) * rotation_counts < 0.0 ? turned_back_turns : 0.0;
         const double behind = std::max(lag_turns - back, -lag_turns);
         const double quarters = std::floor(4.0 * (turns - sign * behind));
         const auto shown = static_cast<std::int64_t>(c.counts_per_turn == 4 ? quarters : std::floor(quarters / 4.0));
@@ -238,13 +237,13 @@ TEST(FringeReadout, ASkewBetweenLatchAndSamplingIsReported) {
 // A rotation of 100 counts a half lets the beat turn back by 0.02 turns before every other latch; one of 300 by more
 // than the comparators follow. Unknown, it would be a skew of half of that.
 TEST(FringeReadout, ARotationThatTurnsTheBeatBackIsNoSkew) {
-    for (const std::int64_t counts : {200, -200, 600}) {
+    for (const double counts : {200.0, -200.0, 600.0}) {
         for (const double skew : {0.0, 0.006}) {
             Electronics e;
             e.c.lag_turns = e.lag_turns = 0.02;
             e.c.turned_back_turns = 2e-6;
             e.rotation_counts = counts;
-            e.turned_back_turns = 2e-6 * 0.25 * static_cast<double>(counts * counts);
+            e.turned_back_turns = 2e-6 * 0.25 * counts * counts;
             SCOPED_TRACE(counts);
             expect_skew(e, skew);
         }

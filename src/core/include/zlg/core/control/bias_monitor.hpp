@@ -16,14 +16,14 @@ struct BiasMonitorState {
     // Halves in a row that were counted, up to now, each of the other sign than the one before.
     std::int32_t n_known = 0;
     std::int8_t beat_sign = 1;  // of the last of them
-    std::int64_t counts = 0;    // of it, of the one before,
-    std::int64_t counts_before = 0;
-    std::int64_t counts_long_before = 0;  // and of the one before that
-    double bias_counts = 0.0;             // b of a settled gyro, learnt and followed
-    std::int32_t n_learnt = 0;            // up to 32, when it counts as learnt
-    double steady_counts = 0.0;           // mean of b since it is out of its band and steady,
-    std::int32_t n_steady = 0;            // for so many halves
-    std::int32_t n_reversed = 0;          // halves in a row in which b was that of the other helicity
+    double counts = 0.0;        // of it, of the one before,
+    double counts_before = 0.0;
+    double counts_long_before = 0.0;  // and of the one before that
+    double bias_counts = 0.0;         // b of a settled gyro, learnt and followed
+    std::int32_t n_learnt = 0;        // up to 32, when it counts as learnt
+    double steady_counts = 0.0;       // mean of b since it is out of its band and steady,
+    std::int32_t n_steady = 0;        // for so many halves
+    std::int32_t n_reversed = 0;      // halves in a row in which b was that of the other helicity
 
     friend constexpr bool operator==(const BiasMonitorState&, const BiasMonitorState&) = default;
 };
@@ -45,10 +45,10 @@ struct BiasMonitorOutput {
 // after 32 halves: the mean was then learnt from a faulty bias. Less than a quarter of what is presumed is never
 // learnt.
 //
-// counted  the counts are those of this half.
+// counted  the counts are those of this half, a whole number.
 // settled  closed and locked: the bias is not weakened by detuning.
 // latency  none for a change of the counts in one half; `reversed`: four halves.
-[[nodiscard]] BiasMonitorOutput step(const MonitorLimits& limits, BiasMonitorState& state, bool counted,
-                                     std::int64_t counts, std::int8_t beat_sign, bool settled) noexcept;
+[[nodiscard]] BiasMonitorOutput step(const MonitorLimits& limits, BiasMonitorState& state, bool counted, double counts,
+                                     std::int8_t beat_sign, bool settled) noexcept;
 
 }  // namespace zlg::core

@@ -71,9 +71,9 @@ struct FringeReadoutInput {
     float s = 0.0f;
     std::uint32_t quarter = 0;  // of the turn, by the comparators: 0..3
     std::uint64_t counter = 0;
-    bool settled = false;              // the beat has its usual amplitude
-    int sign = 1;                      // of the beat in the half that ended
-    std::int64_t rotation_counts = 0;  // of a tick, about
+    bool settled = false;          // the beat has its usual amplitude
+    int sign = 1;                  // of the beat in the half that ended
+    double rotation_counts = 0.0;  // of a tick, about
 };
 
 struct FringeReadoutOutput {
