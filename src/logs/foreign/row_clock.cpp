@@ -233,8 +233,9 @@ double regular_gap(const LongColumn& t, double step, double far, double place) {
 void check_coarse(const TextColumn& times, RowTimes& found, double said, const std::string& path) {
     const LongColumn& t = times.values;
     const double mean = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
-    const auto [place, is_decimal, digit] = coarse_place(t, std::min(mean, found.step));
-    if (place == 0.0) return;
+    const Place coarse = coarse_place(t, std::min(mean, found.step));
+    if (coarse.size == 0.0) return;
+    const double place = coarse.size, digit = coarse.digit;
     std::size_t n_odd = 0;
     const double far = 0.1 * place + digit;
     for (std::size_t k = 1; k < t.size(); ++k) n_odd += std::fabs((t[k] - t[k - 1]) - found.step) > far ? 1u : 0u;
@@ -270,7 +271,7 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
         return;
     }
     const bool is_said = said > 0.0 && std::fabs(said / found.step - 1.0) <= found.tolerance;
-    if ((!is_decimal && !(are_few && gap > 0.0)) || is_said) return;
+    if ((!coarse.is_decimal && !(are_few && gap > 0.0)) || is_said) return;
     throw FormatError(fmt::format(
         "{}, {}: its times are rounded to {:g}, with rows about {:.6g} apart, and not even, so that they do not "
         "say which rows are missing; --map rate_hz=... if {} are, and time=none too if none are",
