@@ -41,8 +41,7 @@ void require_room(std::int64_t ticks, double bytes_a_tick, const std::string& ou
     if (!room || certain * bytes <= *room) return;
     throw logs::IoError{
         fmt::format("{}: {:.6g} ticks need about {:.3g} GB of disk, {:.3g} GB are free; allowed is a shorter "
-                    "run.duration_s or a longer "
-                    "gyro.tick_s",
+                    "run.duration_s or a longer gyro.tick_s",
                     out.empty() ? "--out" : out, static_cast<double>(ticks), 1e-9 * bytes, 1e-9 * *room)};
 }
 

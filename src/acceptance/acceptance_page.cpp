@@ -72,8 +72,7 @@ Table quantities_table(const Acceptance& test, bool with_limit) {
 Figure limits_figure(const Acceptance& test) {
     Figure f = blank_figure("limits", "Values within their limits",
                             "Each quantity with a limit, in the order of the table. Dashed at 1 and -1: the limits; of "
-                            "a single limit the share "
-                            "of it. Bars: twice the standard uncertainty.",
+                            "a single limit the share of it. Bars: twice the standard uncertainty.",
                             "number of the quantity", "place within the limits");
     Series values = blank_series("values", Mark::points), upper = blank_series("limit", Mark::line, true);
     Series lower = blank_series("lower limit", Mark::line, true, 1);

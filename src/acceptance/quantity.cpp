@@ -73,9 +73,7 @@ const std::array table{
     QuantityInfo{
         "switch_error.arcsec", "error of a switch at rest, where the rotation is known, rms", "arcsec", own, {at_rest}},
     QuantityInfo{"switches_withheld.count", "switches that were due and not made", "",
-                 "a raw log that says "
-                 "switching.interval_s",
-                 still},
+                 "a raw log that says switching.interval_s", still},
     QuantityInfo{"alarms.per_h", "stretches without a trusted reading that belong to no switch", "1/h", "a raw log",
                  still},
 };

@@ -238,9 +238,7 @@ RunRecord read_run(const Plan& plan, const Run& run, const config::Config& said)
     if (foreign.empty()) return record;
     if (foreign.size() != run.files.size())
         throw config::ConfigError(
-            fmt::format("{}: files of other programs and logs of zlg together; allowed is one kind "
-                        "a run",
-                        run.place));
+            fmt::format("{}: files of other programs and logs of zlg together; allowed is one kind a run", run.place));
     const logs::ForeignLook look = logs::look_at_foreign(foreign, run.mapping);
     if (look.makes == logs::Makes::axes) {
         read_axes(plan, look, record);

@@ -128,8 +128,7 @@ std::string verdict(const Requirement& r, const Answer& a) {
         fmt::format("an error of at most {} arcsec after {} s", short_number(r.limit_arcsec()), short_number(r.run_s));
     if (a.is_interrupted)
         return fmt::format(
-            "Interrupted: of {}, asked of {} of the gyros, this is known until now. Last tried: {}; {} "
-            "keep it.",
+            "Interrupted: of {}, asked of {} of the gyros, this is known until now. Last tried: {}; {} keep it.",
             demand, r.confidence, in_words(a.proof.candidate), share_text(a));
     if (a.met)
         return fmt::format("{} meets {} in {}, where {} is asked.", in_words(a.proof.candidate), demand, share_text(a),

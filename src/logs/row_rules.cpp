@@ -17,8 +17,7 @@ std::string RowNumber::fault(std::int64_t value, std::int64_t row) {
     if (value < 0) return out_of_range(allowed());
     if (row == 0)
         return "leaves a hole; expected 0, where the numbers of every log begin: number the rows of one that was cut "
-               "out of a longer log "
-               "anew; a raw log must be cut at an even half-period";
+               "out of a longer log anew; a raw log must be cut at an even half-period";
     return fmt::format("{}; expected {}", value > row ? "leaves a hole" : "is a repetition", row);
 }
 

@@ -207,8 +207,7 @@ double probability_of(const SmoothFit& smooth) {
     if (!(smooth.chi2 >= 0.0))
         throw deviations::SeriesError(
             "fit: squares of the record, or of its sampling rate, overflow or vanish; allowed are samples and rates "
-            "whose "
-            "fourth power is a number");
+            "whose fourth power is a number");
     const boost::math::chi_squared law(static_cast<double>(smooth.dof));
     return boost::math::cdf(boost::math::complement(law, smooth.chi2));
 }

@@ -99,8 +99,7 @@ core::GyroCompensationConfig compensation_config(const config::Config& config, c
             require_points(config, bridge);
             refuse(config, {"gyro.tick_s", "switching.gap_ticks", "compensation.relock_ticks"},
                    "max(16, gap_ticks) + max(8, relock_ticks) + 80 ms in ticks + 1 of at most 128 ticks, after which a "
-                   "tick is "
-                   "final with compensation.bridge = \"auto\"");
+                   "tick is final with compensation.bridge = \"auto\"");
         case core::GyroCompensationFault::edges:
         case core::GyroCompensationFault::relock:
             refuse(config, {"gyro.tick_s", "gyro.scale_arcsec", "gyro.bias_hz", "gyro.bias_chi", "gyro.bias_edge_s"},

@@ -167,8 +167,7 @@ report::Page design_page(const config::Config& config, const DesignResult& resul
         {.heading = "Interval",
          .paragraphs =
              {"corrected: run mean of the thermal term and the sawtooth of the cold gyro. worst_case: exact, "
-              "at the worst switch. as_printed: the paper's formula with its mistake. closed_form: no "
-              "thermal change.",
+              "at the worst switch. as_printed: the paper's formula with its mistake. closed_form: no thermal change.",
               fmt::format("The tables take design.switch_error_arcsec = {} for the error of a switch. Of this gyro it "
                           "is {} arcsec rms, {}. The least drift with independent errors of that size:{}.{}",
                           short_number(config.design.switch_error_arcsec), short_number(result.switch_error_arcsec),

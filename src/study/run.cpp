@@ -253,8 +253,7 @@ std::optional<std::string> late_switches(const config::Config& config, const std
     if (!(reached_s > asked.interval_s + config.gyro.tick_s)) return {};
     return fmt::format(
         "switching.interval_s = {}: the gyro switched every {:g} s (median), for a switch waits until the loop is "
-        "locked "
-        "after the one before",
+        "locked after the one before",
         asked.interval_s, reached_s);
 }
 

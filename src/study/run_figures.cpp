@@ -62,8 +62,7 @@ Figure sawtooth_figure(const config::Config& config, const RunResult& result) {
     else
         caption += fmt::format(
             " Switched every {} s, its sign follows the helicity of the mode: the error is a sawtooth as high as "
-            "interval "
-            "\u00D7 magnetic drift, on a slow slope that is the non-magnetic drift of {} deg/h.",
+            "interval \u00D7 magnetic drift, on a slow slope that is the non-magnetic drift of {} deg/h.",
             short_number(config.switching.interval_s), short_number(config.drift.nonmagnetic_arcsec_s));
     if (!faults_of(config).empty()) caption += " Shaded: the faults.";
     Figure f = blank_figure("angle-error", "Angle error against time", std::move(caption), "time, s", angle_error);
@@ -105,8 +104,7 @@ Figure magnified_figure(const RunResult& result) {
         "one-switch", "One switch, tick by tick",
         fmt::format(
             "Each point is the angle of one tick. In the gap the counter reads nonsense, which is not drawn; {} After "
-            "the "
-            "gap the reading is still wrong while the perimeter settles: the final value is corrected for it.",
+            "the gap the reading is still wrong while the perimeter settles: the final value is corrected for it.",
             is_repaired
                 ? "the gyro delivers an extrapolation in real time and an interpolation as soon as the other side is "
                   "known. One tick then carries the difference, so that no angle is lost."

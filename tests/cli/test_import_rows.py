@@ -71,7 +71,7 @@ class Rows(Foreign):
         self.assertEqual(self.mean(self.stamped(k, there))[1]["known"], self.N)
 
     def test_rows_that_are_missing_are_seen_at_any_rate_by_stamps_of_milliseconds(self):
-        for rate in (96.8, 300, 300.3, 333):
+        for rate in (300, 300.3, 333, 350, 400, 480):
             lost = numpy.sort(self.rng.choice(numpy.arange(5, self.N - 5), 7, replace=False))
             there = numpy.delete(numpy.arange(self.N), lost)
             log = self.angles(self.stamped(there, numpy.floor(1000 * there / rate)), rows=self.N)
@@ -88,12 +88,32 @@ class Rows(Foreign):
             else:
                 self.angles(path, rows=10_000)
 
-    def test_of_many_missing_rows_the_rate_must_be_said(self):
+    def test_of_many_missing_rows_the_rate_must_be_said_where_a_clock_may_round_so(self):
         there = numpy.flatnonzero(self.rng.random(self.N) > 0.15)
         path = self.stamped(there, 10 * there)
-        self.refuse(3, "import", path, "--out", self.folder / "o.csv", says=("--map rate_hz=... if",))
+        self.refuse(3, "import", path, "--out", self.folder / "o.csv", says=("rate_hz=... with time_unit=... if", "are"))
         log = self.angles(path, "--map", "rate_hz=100")
         self.assertEqual([k - there[0] for k in there], [k for k in range(len(log.dtheta)) if not log.has(k, "invalid")])
+        # 85 Hz, with stamps that scatter, in whole hundredths of a second.
+        late = numpy.round(numpy.arange(self.N) / 0.85 + self.rng.uniform(-0.05, 0.05, self.N))
+        self.refuse(3, "import", self.stamped(range(self.N), 10 * late), "--out", self.folder / "o.csv", says=("not even",))
+        # By a clock of 1024 ticks 800 Hz of which three rows are missing; and 1024 Hz that lacks a fifth by chance.
+        for there, ticks in ((numpy.delete(numpy.arange(self.N), [200, 500, 700]), 1.28), (numpy.flatnonzero(self.rng.random(self.N) > 0.2), 1.0)):
+            rows = "".join(f"{numpy.floor(ticks * k) / 1024:.6f},{self.w[k]:.9f}\n" for k in there)
+            path = self.write("c.csv", "time_s,gyro [rad/s]\n" + rows)
+            if ticks > 1.0:
+                self.refuse(3, "import", path, "--out", self.folder / "o.csv", says=("not even",))
+            else:
+                self.angles(path, rows=there[-1] - there[0] + 1)
+
+    def test_a_clock_that_is_set_within_a_file_is_soon_refused(self):
+        stamps = numpy.floor(numpy.arange(20_000) / 0.997) + numpy.where(numpy.arange(20_000) < 10_000, 0.0, 1.7e12)
+        path = self.write("set.csv", "t_ms,gyro [rad/s]\n" + "".join(f"{t:.0f},{k % 7}.5\n" for k, t in enumerate(stamps)))
+        self.refuse(3, "import", path, "--out", self.folder / "o.csv", timeout=20)
+
+    def test_a_second_that_all_rows_share_tells_no_rate(self):
+        path = self.stamped(range(20), [1000 * int(1000.85 + k / 100) for k in range(20)])
+        self.refuse(3, "import", path, "--out", self.folder / "o.csv", says=("tells no rate", "rate_hz"))
 
     def test_seconds_since_1970_that_are_rounded_to_milliseconds(self):
         for rate in (700, 800, 909):

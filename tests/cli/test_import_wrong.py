@@ -85,7 +85,12 @@ class SilentlyWrong(Foreign):
             log = self.angles(self.write("coarse.csv", text(numpy.floor(whole), ".0f")), rows=400)
             self.assertEqual([k for k in range(400) if log.has(k, "invalid")], [])
             self.assertIn(f"tick_s = {step / 1e3:g}", "\n".join((self.folder / "angles.csv").read_text().splitlines()[:9]))
-            self.refused("lost.csv", text(numpy.floor(numpy.delete(whole, 211)), ".0f"), "--map", "axis=w_dph", says=("rounded", "rate_hz"))
+            lost = text(numpy.floor(numpy.delete(whole, 211)), ".0f")
+            if step < 2:  # a step of 3 may be two rows as well as one and a late one
+                self.refused("lost.csv", lost, "--map", "axis=w_dph", says=("rounded", "rate_hz"))
+            else:
+                log = self.angles(self.write("lost.csv", lost), rows=400)
+                self.assertEqual([k for k in range(400) if log.has(k, "invalid")], [211])
 
 
 class Bench(Foreign):

@@ -97,10 +97,8 @@ void check_required(const DesignOptions& options) {
         throw UsageError{"--require: the requirement holds the gyro and the length of its run; leave out CONFIG"};
     if (options.out.empty()) return;
     if (!options.out.ends_with(".html") && !options.out.ends_with(".toml"))
-        throw UsageError{
-            fmt::format("{}: the suffix names no format; allowed are .html, a page, and .toml, what zlg "
-                        "run takes",
-                        options.out)};
+        throw UsageError{fmt::format(
+            "{}: the suffix names no format; allowed are .html, a page, and .toml, what zlg run takes", options.out)};
     refuse_own_input(options.require, options.out);
     if (!options.force && std::filesystem::exists(options.out))
         throw logs::IoError{fmt::format("{} exists; use --force to overwrite", options.out)};

@@ -8,7 +8,6 @@
 
 #include <zlg/config/schema.hpp>
 #include <zlg/logs/angle_log.hpp>
-#include <zlg/logs/log_kind.hpp>
 #include <zlg/logs/raw_log.hpp>
 #include <zlg/logs/table_file.hpp>
 #include <zlg/logs/unfinished.hpp>

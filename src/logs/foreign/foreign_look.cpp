@@ -209,10 +209,8 @@ void check_axes(ForeignLook& look, std::int64_t times) {
                             in));
     if (!m.has("scale") && m.has("unit") && !unit->of_counts && !m.axes().empty() &&
         all_of_known(column_named(look.table, m.axes().front()), is_whole))
-        look.said.push_back(
-            fmt::format("its numbers are whole, and read as so many {}; --map scale=... if they are "
-                        "in another one",
-                        unit->name));
+        look.said.push_back(fmt::format(
+            "its numbers are whole, and read as so many {}; --map scale=... if they are in another one", unit->name));
     if (m.has("table_rate") && !m.has("table_unit") &&
         !unit_in_name(column_named(look.table, m.text("table_rate")).name))
         look.missing.push_back("table_unit=... (of the rate table's rate)");

@@ -167,8 +167,7 @@ TextColumn even_column(const ForeignTable& table, const Mapping& mapping) {
         const std::string unit = presumed_unit(*read.times, *clock.times, 1.0 / clock.step_s);
         if (!unit.empty())
             throw MappingError(
-                fmt::format("{}, {}: read as {}, which its name does not say; allowed are seconds, or --map "
-                            "time=none",
+                fmt::format("{}, {}: read as {}, which its name does not say; allowed are seconds, or --map time=none",
                             table.path, described(*read.times), unit));
         if (clock.times->n_missing > 0)
             throw FormatError(fmt::format("{}, {}; allowed are rows of which none is missing", table.path,

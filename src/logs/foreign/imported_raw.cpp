@@ -15,8 +15,7 @@ namespace {
 [[noreturn]] void refuse_whole_ticks(const std::string& path) {
     throw FormatError(
         fmt::format("{}: its rows are not halves of a bias period, and counts of a whole one cannot be parted into "
-                    "halves; as an angle: --map axis=COLUMN --map holds=increment --map unit=counts, without "
-                    "counts",
+                    "halves; as an angle: --map axis=COLUMN --map holds=increment --map unit=counts, without counts",
                     path));
 }
 
@@ -125,8 +124,7 @@ private:
         if (said && knows_step_ && std::fabs(by_times_s / *said - 1.0) > 1e-3)
             throw FormatError(
                 fmt::format("{}: tick_s = {}, and two rows of {:.6g} s make {:.6g} s; allowed are rows of a half each, "
-                            "with the counts "
-                            "of parts of a half added up",
+                            "with the counts of parts of a half added up",
                             path_, *said, clock_.step_s, by_times_s));
         if (!said) made_.notes.push_back(fmt::format("tick_s = {} by the times of the rows", tick_s));
         made_.header.settings = {{"gyro.tick_s", fmt::format("{}", tick_s)},

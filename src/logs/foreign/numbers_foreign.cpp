@@ -70,10 +70,8 @@ public:
 
 private:
     [[noreturn]] void fail(const std::string& what) const {
-        throw FormatError(
-            fmt::format("{}: a NumPy array {}; allowed are plain numbers, little-endian, of one or two "
-                        "dimensions",
-                        path_, what));
+        throw FormatError(fmt::format(
+            "{}: a NumPy array {}; allowed are plain numbers, little-endian, of one or two dimensions", path_, what));
     }
 
     std::string read_head() {

@@ -7,15 +7,17 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
-#include <span>
 #include <zlg/logs/error.hpp>
 
-#include "text_table/steps.hpp"
 #include "text_table/time_names.hpp"
 
 namespace zlg::logs {
 
 namespace {
+
+[[noreturn]] void refuse(const std::string& path, const TextColumn& times, const std::string& why) {
+    throw FormatError(fmt::format("{}, {}: {}", path, described(times), why));
+}
 
 // The step that has, or whose rate has, the fewest digits that the times allow, and that leaves the rate to a
 // thousandth.
@@ -43,11 +45,10 @@ void check_holes(const TextColumn& times, const RowTimes& found, const std::stri
         const double rows = static_cast<double>(to - from) + static_cast<double>(found.holes[h].n_missing);
         const double steps = (t[to] - t[from]) / found.step;
         if (std::fabs(steps - rows) <= 0.6) continue;
-        throw FormatError(
-            fmt::format("{}, {}: after row {} the times jump from {} to {} and then do not go on evenly, so that they "
-                        "do not say how many rows "
-                        "are missing; --map time=none and --map rate_hz=... if none are",
-                        path, described(times), row + 1, t[row], t[row + 1]));
+        refuse(path, times,
+               fmt::format("after row {} the times jump from {} to {} and then do not go on evenly, so that they "
+                           "do not say how many rows are missing; --map time=none and --map rate_hz=... if none are",
+                           row + 1, t[row], t[row + 1]));
     }
 }
 
@@ -57,11 +58,11 @@ void check_local_time(const TextColumn& times, const RowTimes& found, const std:
     for (const Hole& hole : found.holes) {
         const double jump = times.values[hole.row + 1] - times.values[hole.row];
         if (std::fabs(jump - 3600.0 - found.step) > 0.6 * found.step) continue;
-        throw FormatError(
-            fmt::format("{}, {}: after row {} the local time jumps by an hour, as it does where daylight saving time "
-                        "begins; allowed are dates with a time zone, or --map time=none with rate_hz if no rows are "
-                        "missing there",
-                        path, described(times), hole.row + 1));
+        refuse(path, times,
+               fmt::format("after row {} the local time jumps by an hour, as it does where daylight saving time "
+                           "begins; allowed are dates with a time zone, or --map time=none with rate_hz if no rows are "
+                           "missing there",
+                           hole.row + 1));
     }
 }
 
@@ -77,10 +78,10 @@ void check_repetitions(const TextColumn& times, const std::string& path) {
         if (t[k] != t[k - 1]) continue;
         const std::size_t from = k > 1 ? k - 2 : 0, to = std::min(k + 1, t.size() - 1);
         if (t[to] - t[from] > (static_cast<double>(to - from) - 0.4) * mean) continue;
-        throw FormatError(
-            fmt::format("{}, {}: row {} has the time {} of the row before it; allowed are times that rise, or --map "
-                        "time=none with rate_hz if no row stands twice",
-                        path, described(times), k + 1, t[k]));
+        refuse(path, times,
+               fmt::format("row {} has the time {} of the row before it; allowed are times that rise, or --map "
+                           "time=none with rate_hz if no row stands twice",
+                           k + 1, t[k]));
     }
 }
 
@@ -89,25 +90,24 @@ void check_repetitions(const TextColumn& times, const std::string& path) {
 void check_one_rate(const TextColumn& times, const RowTimes& found, const std::string& path) {
     constexpr std::size_t window = 32, most_holes = 8;
     const LongColumn& t = times.values;
-    const auto refuse = [&](std::size_t row, double step) {
-        throw FormatError(
-            fmt::format("{}, {}: its rows are {:.6g} apart from row {} on and {:.6g} elsewhere; allowed is one rate "
-                        "throughout, or --map "
-                        "time=none with rate_hz",
-                        path, described(times), step, row + 1, found.step));
+    const auto refuse_step = [&](std::size_t row, double step) {
+        refuse(path, times,
+               fmt::format("its rows are {:.6g} apart from row {} on and {:.6g} elsewhere; allowed is one rate "
+                           "throughout, or --map time=none with rate_hz",
+                           step, row + 1, found.step));
     };
     std::size_t from = 0, n_running = 0, next = 0;
     for (std::size_t k = 0; k + 1 < t.size(); ++k) {
         const bool is_hole = next < found.holes.size() && found.holes[next].row == k;
         n_running = is_hole ? n_running + 1 : 0;
-        if (n_running == most_holes) refuse(k + 1 - most_holes, t[k + 1] - t[k]);
+        if (n_running == most_holes) refuse_step(k + 1 - most_holes, t[k + 1] - t[k]);
         if (is_hole) {
             ++next;
             from = k + 1;
         }
         if (k + 1 - from < window) continue;
         const double step = (t[k + 1] - t[from]) / static_cast<double>(window);
-        if (std::fabs(step - found.step) > 0.2 * found.step) refuse(from, step);
+        if (std::fabs(step - found.step) > 0.2 * found.step) refuse_step(from, step);
         ++from;
     }
     // Thirds by the numbers of their rows, missing ones with them, each as well as its ends are known and as chance
@@ -132,7 +132,7 @@ void check_one_rate(const TextColumn& times, const RowTimes& found, const std::s
     const double known = 6.0 * (found.tolerance - 1e-3);
     const auto odd = std::fabs(*least - found.step) > std::fabs(*most - found.step) ? least : most;
     if (*most - *least > (most_apart + known) * found.step + chance)
-        refuse(begin_of(static_cast<std::size_t>(odd - steps.begin())), *odd);
+        refuse_step(begin_of(static_cast<std::size_t>(odd - steps.begin())), *odd);
 }
 
 // The place to which stamps are rounded, where that is no small part of a row; 0: it is. A decimal one, or the tick of
@@ -206,90 +206,125 @@ EvenCourse narrowest(const LongColumn& t, double place, const std::vector<Hole>&
 // Rows from one step that is a place longer to the next, where such steps come at even times, as those of rows that are
 // no whole number of places apart do, whatever else is missing between them; 0: they do not.
 double regular_gap(const LongColumn& t, double step, double far, double place) {
-    constexpr std::size_t fewest = 6, most_tried = 64;
-    std::vector<double> at;
-    for (std::size_t k = 1; k < t.size(); ++k)
-        if (const double longer = t[k] - t[k - 1] - step; longer > far && longer < 1.5 * place) at.push_back(t[k]);
+    constexpr std::size_t fewest = 6, most_tried = 64, most = std::size_t{1} << 16;
     const double reach = step + place / 2.0;
+    std::vector<double> at;
+    for (std::size_t k = 1; k < t.size() && at.size() < most; ++k)
+        if (const double longer = t[k] - t[k - 1] - step; longer > far && longer < 1.5 * place) at.push_back(t[k]);
     for (std::size_t first = 0; first + 1 < std::min(at.size(), most_tried); ++first) {
-        const double period = at[first + 1] - at[first];
+        double period = at[first + 1] - at[first], n = 0.0, n_met = 0.0, n_missed = 0.0;
         if (period < 2.0 * reach) continue;
-        std::size_t n_met = 0;
-        double n_expected = 0.0;
-        for (double next = at[first] + period; next <= at.back() + reach; next += period, n_expected += 1.0) {
-            const auto found = std::lower_bound(at.begin(), at.end(), next - reach);
-            if (found == at.end() || *found > next + reach) continue;
-            ++n_met;
-            next = *found;
+        for (std::size_t i = first + 1; i < at.size();) {
+            n += 1.0;
+            const double next = at[first] + n * period;
+            while (i < at.size() && at[i] < next - reach) ++i;
+            if (i == at.size()) break;
+            if (at[i] <= next + reach) {
+                if (i + 1 < at.size() && std::fabs(at[i + 1] - next) < std::fabs(at[i] - next)) ++i;
+                n_met += 1.0;
+                period = (at[i++] - at[first]) / n;
+            } else {  // Between two such steps there is one miss, however long a hole is.
+                n_missed += 1.0;
+                n += std::max(0.0, std::floor((at[i] - reach - next) / period));
+            }
         }
-        if (n_met >= fewest && static_cast<double>(n_met) >= 0.8 * n_expected) return (period - place) / step;
+        if (n_met >= fewest && n_met >= 4.0 * n_missed) return (period - place) / step;
     }
     return 0.0;
 }
 
-// Rounded stamps of rows that are no whole number of places apart show rows that are missing only where the stamps are
-// all within a place of an even course. Where few steps are odd and lie as evenly as those of such a course, both may
-// be: `said`, the step that is said, decides; 0: none is.
+// Whether a step that is taken for one row is so long that a row may be missing in it.
+bool may_hide_rows(const LongColumn& t, const RowTimes& found, double place) {
+    auto hole = found.holes.begin();
+    for (std::size_t k = 1; k < t.size(); ++k)
+        if (hole != found.holes.end() && hole->row == k - 1)
+            ++hole;
+        else if (t[k] - t[k - 1] > 2.0 * found.step - 1.01 * place)
+            return true;
+    return false;
+}
+
+// Rows that are lost by chance, a share p of them, are lost two and more in succession in a share p of the holes; where
+// hardly any are, and enough should be to tell, the holes are those of another rate.
+bool are_lost_by_chance(const RowTimes& found, std::size_t n_rows) {
+    constexpr double enough = 8.0;
+    const auto n_holes = static_cast<double>(found.holes.size()), missing = static_cast<double>(found.n_missing);
+    const double expected = n_holes * missing / (missing + static_cast<double>(n_rows));
+    const auto n = std::ranges::count_if(found.holes, [](const Hole& hole) { return hole.n_missing > 1; });
+    return expected < enough || 4.0 * static_cast<double>(n) >= expected;
+}
+
+// Rounded stamps show rows that are missing only where all are within a place of an even course with these holes. Where
+// rows are a whole number of places apart they always are, and a step that is longer is a hole or shows another rate:
+// `said`, the step that is said, decides; 0: none is.
 void check_coarse(const TextColumn& times, RowTimes& found, double said, const std::string& path) {
     const LongColumn& t = times.values;
-    const double mean = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+    const double span = t.back() - t.front(), mean = span / static_cast<double>(t.size() - 1);
     const Place coarse = coarse_place(t, std::min(mean, found.step));
     if (coarse.size == 0.0) return;
-    const double place = coarse.size, digit = coarse.digit;
+    const double place = coarse.size, digit = coarse.digit, tolerance = 1e-3 + 2.0 * place / span;
+    const bool repeats = place > 1.01 * found.step;
+    if (repeats && place > 0.05 * span && said == 0.0)
+        refuse(path, times,
+               fmt::format("its times, rounded to {:g}, span {:g}, which tells no rate; allowed is "
+                           "--map rate_hz=... with time=none",
+                           place, span));
     std::size_t n_odd = 0;
     const double far = 0.1 * place + digit;
     for (std::size_t k = 1; k < t.size(); ++k) n_odd += std::fabs((t[k] - t[k - 1]) - found.step) > far ? 1u : 0u;
-    // Of whole numbers of places only holes are odd. So many that came by chance lie as evenly as those of another rate
-    // once in 12^12/12!, 20 000.
-    constexpr std::size_t fewest_even = 12;
+    if (n_odd < 3) return;
     const bool are_few = 10 * n_odd < t.size();
-    const double gap = regular_gap(t, found.step, far, place);
-    if (n_odd < 3 || (are_few && n_odd < fewest_even && gap == 0.0)) return;
-    const auto even = narrowest(t, place, {}, 0);
     const auto is_even = [&](const EvenCourse& course) { return course.width <= 1.01 * place + digit; };
-    if (are_few && gap == 0.0 && !is_even(even)) return;
-    // Of rows that are no whole number of places apart a step that is a place longer is no hole.
+    const EvenCourse even = narrowest(t, place, {}, 0);
     const double whole = place * std::round(found.step / place);
-    const bool is_whole = gap == 0.0 || std::fabs(found.step - whole) < 0.5 * place / gap;
-    if (are_few && is_whole) {
+    bool is_whole = !repeats && std::fabs(found.step - whole) <= 0.02 * place;
+    if (is_whole && are_few) {
+        // So many odd steps that came by chance lie as evenly as those of another rate once in 12^12/12!, 20 000.
+        constexpr std::size_t fewest_even = 12;
+        const double gap = regular_gap(t, found.step, far, place);
+        if (gap == 0.0 && (n_odd < fewest_even || !is_even(even))) return;
         const double other = is_even(even) ? even.step : whole + place / gap;
-        if (said > 0.0 && std::fabs(said - found.step) < std::fabs(said - other)) return;
-        if (said == 0.0)
-            throw FormatError(fmt::format(
-                "{}, {}: its times, rounded to {:g}, are those of rows {:.6g} apart, and of rows {:.6g} apart of which "
-                "{} are missing; allowed is one of both: --map rate_hz=... with time_unit=...",
-                path, described(times), place, other, found.step, found.n_missing));
+        is_whole = std::fabs(found.step - whole) < std::fabs(found.step - other);
+        if (is_whole && said > 0.0 && std::fabs(said - found.step) < std::fabs(said - other)) return;
+        if (is_whole && said == 0.0)
+            refuse(path, times,
+                   fmt::format(
+                       "its times, rounded to {:g}, are those of rows {:.6g} apart, and of rows {:.6g} apart of which "
+                       "{} are missing; allowed is one of both: --map rate_hz=... with time_unit=...",
+                       place, other, found.step, found.n_missing));
     }
-    const double tolerance = 1e-3 + 2.0 * place / (t.back() - t.front());
     if (is_even(even)) {
         found = {.step = even.step, .tolerance = tolerance, .holes = {}, .n_missing = 0};
         return;
     }
-    if (const auto course = narrowest(t, place, found.holes, found.n_missing); !is_whole && is_even(course)) {
+    const EvenCourse course = narrowest(t, place, found.holes, found.n_missing);
+    const bool is_said = said > 0.0 && std::fabs(said / found.step - 1.0) <= found.tolerance;
+    // Of many rows that are missing a decimal place, to which any clock may round, says nothing.
+    const bool are_lost =
+        is_whole ? is_said || !(are_few || coarse.is_decimal || !are_lost_by_chance(found, t.size())) : !repeats;
+    if (are_lost && is_even(course)) {
         found.step = course.step;
         found.tolerance = tolerance;
         return;
     }
-    const bool is_said = said > 0.0 && std::fabs(said / found.step - 1.0) <= found.tolerance;
-    if ((!coarse.is_decimal && !(are_few && gap > 0.0)) || is_said) return;
-    throw FormatError(fmt::format(
-        "{}, {}: its times are rounded to {:g}, with rows about {:.6g} apart, and not even, so that they do not "
-        "say which rows are missing; --map rate_hz=... if {} are, and time=none too if none are",
-        path, described(times), place, found.step, found.n_missing));
+    if (repeats ? !coarse.is_decimal : are_few && !is_whole && !may_hide_rows(t, found, place)) return;
+    refuse(path, times,
+           fmt::format("its times are rounded to {:g}, with rows about {:.6g} apart, and not even, so that they do not "
+                       "say which rows are missing; --map time=none and --map rate_hz=... if none are{}",
+                       place, found.step,
+                       is_whole ? fmt::format(", rate_hz=... with time_unit=... if {} are", found.n_missing) : ""));
 }
 
-// Of the steps from row to row, holes left out, many are far from the median.
+// Of the steps from row to row, holes left out, many are far from a row.
 std::string odd_steps(const TextColumn& times, const RowTimes& found) {
     constexpr double far = 0.5, many = 0.01;
     const LongColumn& t = times.values;
-    const double usual = usual_step(t), n_steps = static_cast<double>(t.size()) - 1.0;
+    const double n_steps = static_cast<double>(t.size()) - 1.0;
     std::ptrdiff_t n = -std::ssize(found.holes);
-    for (std::size_t k = 1; k < t.size(); ++k) n += std::fabs(t[k] - t[k - 1] - usual) > far * usual ? 1 : 0;
-    if (!(usual > 0.0) || static_cast<double>(n) <= many * n_steps) return {};
-    return fmt::format(
-        "{}: {:.3g} % of its steps are more than half a row off their median, {:.6g}; the rows are taken "
-        "as even",
-        described(times), 100.0 * static_cast<double>(n) / n_steps, usual);
+    for (std::size_t k = 1; k < t.size(); ++k) n += std::fabs(t[k] - t[k - 1] - found.step) > far * found.step ? 1 : 0;
+    if (static_cast<double>(n) <= many * n_steps) return {};
+    return fmt::format("{}: {:.3g} % of its steps are more than half a row off {:.6g}; the rows are taken as even",
+                       described(times), 100.0 * static_cast<double>(n) / n_steps, found.step);
 }
 
 }  // namespace
@@ -313,9 +348,7 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
     const TextColumn& times = *read.times;
     clock.times = row_times(times, path, true, "--map time=none");
     if (!clock.times) {
-        if (!presumed_step_s)
-            throw FormatError(
-                fmt::format("{}, {}: too few rows for a rate; allowed are 3 or more", path, described(times)));
+        if (!presumed_step_s) refuse(path, times, "too few rows for a rate; allowed are 3 or more");
         clock.step_s = *presumed_step_s;
         return clock;
     }
@@ -340,7 +373,10 @@ RowClock row_clock(const TextTable& read, const std::string& path, const Mapping
                 fmt::format("{}, {}: a row is {:.6g} s by its times, {:.6g} s by what is said; allowed is one "
                             "value (time_unit=s, ms, us, ns, or time=none)",
                             path, described(times), by_times_s, *presumed_step_s));
-        clock.step_s = presumed_step_s.value_or(simplest(by_times_s, clock.times->tolerance - 1e-3 + 1e-9));
+        // By a tenth of a row over all of them at most.
+        const double n_rows = static_cast<double>(times.values.size()) + static_cast<double>(clock.times->n_missing);
+        const double allowed = std::min(clock.times->tolerance - 1e-3, 0.1 / n_rows) + 1e-9;
+        clock.step_s = presumed_step_s.value_or(simplest(by_times_s, allowed));
     } else if (presumed_step_s) {
         const std::string why = contradiction(times, *clock.times, 1.0 / *presumed_step_s);
         if (!why.empty())

@@ -43,9 +43,17 @@ bool rises_evenly(const LongColumn& values) {
     return usual > 0.0 && even_share({values}, usual) >= (values.size() < many_rows ? 1.0 : 0.9);
 }
 
-// A late stamp is followed by a short step; a hole is not.
+// Of the steps that are the usual one but for half of it: of stamps of 0, 2, 5, 7 ms the median is none.
+double mean_of_usual(const Differences& steps, double usual) {
+    double sum = 0.0, n = 0.0;
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        if (const double step = steps[k]; std::fabs(step - usual) <= 0.501 * usual) n += 1.0, sum += step;
+    return n > 0.0 ? sum / n : usual;
+}
+
+// A late stamp is followed by a short step; a hole is not. A step of just one and a half is none of both.
 bool is_hole(const Differences& steps, std::size_t k, double usual, double coarse) {
-    if (!(steps[k] > 1.5 * usual + coarse)) return false;
+    if (!(steps[k] > 1.501 * usual + coarse)) return false;
     const double least = 2.5 * usual + coarse;
     const bool alone_before = k == 0 || steps[k] + steps[k - 1] > least;
     const bool alone_after = k + 1 == steps.size() || steps[k] + steps[k + 1] > least;
@@ -106,7 +114,7 @@ std::optional<RowTimes> row_times(const TextColumn& column, const std::string& p
     if (!repeats || std::isinf(coarse)) coarse = 0.0;
     RowTimes times;
     const double span = values.back() - values.front();
-    const double usual = repeats ? span / static_cast<double>(steps.size()) : usual_step(values);
+    const double usual = repeats ? span / static_cast<double>(steps.size()) : mean_of_usual(steps, usual_step(values));
     double counted = 0.0;
     double scatter = 0.0;
     std::size_t n_counted = 0;
@@ -128,10 +136,13 @@ std::optional<RowTimes> row_times(const TextColumn& column, const std::string& p
         hole.n_missing = std::max<std::int64_t>(static_cast<std::int64_t>(n), 1);
         times.n_missing = std::min(times.n_missing + hole.n_missing, most_missing);
     }
-    // Over the holes too, where these are whole numbers of rows as far as the stamps tell: their scatter is that of the
-    // two ends then, and not of each stretch between two holes.
+    // Over the holes too, where these are as many rows by that step: its scatter is that of the two ends then, and not
+    // of each stretch between two holes, and late stamps that were taken for holes do not bend it.
     const double whole = span / (static_cast<double>(steps.size()) + static_cast<double>(times.n_missing));
-    if (!times.holes.empty() && std::fabs(whole - times.step) <= (times.tolerance - 1e-3) * times.step)
+    const auto is_as_many = [&](const Hole& hole) {
+        return std::round(steps[hole.row] / whole) - 1.0 == static_cast<double>(hole.n_missing);
+    };
+    if (std::fabs(whole - times.step) <= 0.02 * times.step && std::ranges::all_of(times.holes, is_as_many))
         times.step = whole;
     return times;
 }
@@ -166,8 +177,7 @@ void refuse_many_missing(const std::string& path, const std::string& column, con
     const std::size_t row = std::ranges::max_element(times.holes, {}, &Hole::n_missing)->row;
     throw FormatError(
         fmt::format("{}, {}: {} rows are missing, most of them after row {}, where it jumps from {} to {}; allowed are "
-                    "{} beside the "
-                    "{} that are there{}",
+                    "{} beside the {} that are there{}",
                     path, column, times.n_missing, row + 1, values[row], values[row + 1],
                     max_missing_rows(values.size()), values.size(), if_none));
 }

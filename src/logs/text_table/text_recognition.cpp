@@ -362,8 +362,7 @@ std::string Recognition::suspicion_of(const Dialect& dialect) {
         !header_counts_columns(lines_, dialect))
         if (const auto found = likely_thousands(lines_, dialect))
             return fmt::format(
-                "fewer columns with parted thousands, which are not read, column {} being the thousands "
-                "of the next",
+                "fewer columns with parted thousands, which are not read, column {} being the thousands of the next",
                 *found + 1);
     // Between commas, any number might be the fraction of the one before.
     if (dialect.separator == ',' && layout_.mark != TextMark::point)

@@ -79,8 +79,7 @@ std::string BiasCheck::complaint(const std::string& log_name) const {
         "half-period {}: bias_sign * mode is {:+d} and then {:+d}, and the counts are {} and then {}; right are more "
         "counts "
         "where bias_sign * mode is +1. The correction after re-lock has the wrong sign there, and a switch that mode "
-        "does "
-        "not show is taken for an open loop",
+        "does not show is taken for an open loop",
         log_name, n_wrong_, n_judged_, before.half, beat_sign(before), beat_sign(half), before.counts, half.counts);
 }
 

@@ -113,8 +113,7 @@ std::string PlaceCheck::complaint(const std::string& log_name) const {
     return fmt::format(
         "{}: the column fringe contradicts the counts in {} of {} stretches of some {} half-periods, first before "
         "half-period {}; angles there may be wrong by up to a count at each border, which sigma_arcsec does not "
-        "contain. "
-        "Without that column the log has whole counts",
+        "contain. Without that column the log has whole counts",
         log_name, n_wrong, n_stretches_ + (last != Verdict::open ? 1 : 0), stretch_differences,
         n_wrong_ > 0 ? first_wrong_half_ : half_);
 }

@@ -14,8 +14,7 @@ std::string Replay::uncorrected(const std::string& log_name) const {
     if (n_open_ == 0 || config_.relock.method != core::RelockMethod::none) return {};
     return fmt::format(
         "{}: has no column detuning_sq_lambda2, and compensation.relock is not set: the false drift after the loop is "
-        "closed is not "
-        "subtracted, and sigma_arcsec of {} ticks after each closing presumes a miss of 0.18 wavelength; "
+        "closed is not subtracted, and sigma_arcsec of {} ticks after each closing presumes a miss of 0.18 wavelength; "
         "compensation.relock = \"frequency\" needs no such column",
         log_name, config_.relock.ticks);
 }
@@ -25,8 +24,7 @@ std::vector<std::string> Replay::contradictions(const std::string& log_name) con
     if (2 * n_open_ > halves_)
         found.push_back(
             fmt::format("{}: the loop is open in {} of {} half-periods, and nothing of them is in the angle; right is "
-                        "loop_closed 1 "
-                        "wherever the perimeter is controlled",
+                        "loop_closed 1 wherever the perimeter is controlled",
                         log_name, n_open_, halves_));
     std::erase(found, std::string{});
     return found;
