@@ -50,10 +50,10 @@ class Joint(CliTest):
             self.assertTrue((before[name] == after[name]).all(), name)
         self.expect_live(self.replayed(clean)[0])
 
-    def test_followed_from_its_part(self):
+    def test_from_its_part(self):
         part = self.folder / "raw.h5.part"
         part.write_bytes(self.raw.read_bytes())
-        self.expect_live(self.replayed(part, "--follow")[0])
+        self.expect_live(self.replayed(part)[0])
 
     def test_one_beam_is_near_what_both_say(self):
         angles, said = self.replayed(self.without("light_b"))
