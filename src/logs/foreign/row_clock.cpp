@@ -233,13 +233,13 @@ double regular_gap(const LongColumn& t, double step, double far, double place) {
     return 0.0;
 }
 
-// Whether a step that is taken for one row is so long that a row may be missing in it.
-bool may_hide_rows(const LongColumn& t, const RowTimes& found, double place) {
+// Whether a step that is taken for one row is so long that a row may be missing in it, of stamps within such a strip.
+bool may_hide_rows(const LongColumn& t, const RowTimes& found, double width) {
     auto hole = found.holes.begin();
     for (std::size_t k = 1; k < t.size(); ++k)
         if (hole != found.holes.end() && hole->row == k - 1)
             ++hole;
-        else if (t[k] - t[k - 1] > 2.0 * found.step - 1.01 * place)
+        else if (t[k] - t[k - 1] > 2.0 * found.step - 1.01 * width)
             return true;
     return false;
 }
@@ -307,7 +307,7 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
         found.tolerance = tolerance;
         return;
     }
-    if (repeats ? !coarse.is_decimal : are_few && !is_whole && !may_hide_rows(t, found, place)) return;
+    if (repeats ? !coarse.is_decimal : !may_hide_rows(t, found, std::max(course.width, place))) return;
     refuse(path, times,
            fmt::format("its times are rounded to {:g}, with rows about {:.6g} apart, and not even, so that they do not "
                        "say which rows are missing; --map time=none and --map rate_hz=... if none are{}",
