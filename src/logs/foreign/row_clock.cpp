@@ -206,6 +206,8 @@ EvenCourse narrowest(const LongColumn& t, double place, const std::vector<Hole>&
 // Rows from one step that is a place longer to the next, where such steps come at even times, as those of rows that are
 // no whole number of places apart do, whatever else is missing between them; 0: they do not.
 double regular_gap(const LongColumn& t, double step, double far, double place) {
+    // What is tried and kept bounds time and memory. Of 600 files of 300 to 3000 rows, 1 to 9 % of them lost by chance,
+    // 3 had such a comb, all with 9 % lost.
     constexpr std::size_t fewest = 6, most_tried = 64, most = std::size_t{1} << 16;
     const double reach = step + place / 2.0;
     std::vector<double> at;
@@ -263,6 +265,7 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
     const Place coarse = coarse_place(t, std::min(mean, found.step));
     if (coarse.size == 0.0) return;
     const double place = coarse.size, digit = coarse.digit, tolerance = 1e-3 + 2.0 * place / span;
+    // The stamps at both ends are off by up to a place: over less than 20 places the rate is known to a tenth at best.
     const bool repeats = place > 1.01 * found.step;
     if (repeats && place > 0.05 * span && said == 0.0)
         refuse(path, times,
@@ -277,6 +280,7 @@ void check_coarse(const TextColumn& times, RowTimes& found, double said, const s
     const auto is_even = [&](const EvenCourse& course) { return course.width <= 1.01 * place + digit; };
     const EvenCourse even = narrowest(t, place, {}, 0);
     const double whole = place * std::round(found.step / place);
+    // A longer step in fewer than 50 rows, taken for a row, brings the mean step farther from a whole number of places.
     bool is_whole = !repeats && std::fabs(found.step - whole) <= 0.02 * place;
     if (is_whole && are_few) {
         // So many odd steps that came by chance lie as evenly as those of another rate once in 12^12/12!, 20 000.
